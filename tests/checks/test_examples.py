@@ -13,9 +13,9 @@ from mudline.checks.engine import LintSettings, lint_bytes
 from mudline.checks.fixing import FixState, StageReader
 from mudline.checks.registry import rules
 from mudline.language.codes import all_codes
-from mudline.language.deck.faulty_blocks import with_raw_lines
 from mudline.language.deck.forms.json import to_json
 from mudline.language.deck.forms.yaml import to_yaml
+from mudline.language.deck.keyword_text import with_raw_lines
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import Code, DeckError, Severity
 from mudline.language.rules import Rule, described_by

@@ -24,7 +24,6 @@ from tests.faults.rates import run
 from tests.project.editors.notepad import LANGUAGE, language_text
 from tests.project.editors.snippets import SNIPPETS, snippets_text
 from tests.project.editors.textmate import GRAMMAR, grammar_text
-from tests.project.editors.words import WORDS, words_text
 
 ROOT = Path(__file__).parents[2]
 
@@ -85,7 +84,6 @@ def write() -> None:
         file.write_text(text, encoding="utf-8", newline="\n")
     made = {
         CONFIG_SCHEMA: output("mudline schema config"),
-        WORDS: words_text(),
         GRAMMAR: grammar_text(),
         LANGUAGE: language_text(),
         SNIPPETS: snippets_text(),

@@ -16,7 +16,7 @@ from mudline.checks.registry import rules, select
 from mudline.checks.verdict import errors_beside, judge_content
 from mudline.editing.comparison.decks import compare_decks
 from mudline.editing.variations.planning import plan
-from mudline.language.deck.faulty_blocks import with_raw_lines
+from mudline.language.deck.keyword_text import with_raw_lines
 from mudline.language.deck.loading import coverage_of, dump, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin

@@ -57,7 +57,7 @@ def test_wheel_holds_every_module(wheel_names: set[str]) -> None:
 
 def test_wheel_holds_the_grammar_and_the_marker_of_types(wheel_names: set[str]) -> None:
     assert {f"mudline/grammar/{name}" for name in (*GRAMMAR, *TABLES)} <= wheel_names
-    assert {"mudline/py.typed", "mudline/language/highlighting/words.json"} <= wheel_names
+    assert {"mudline/py.typed", "mudline/language/keywords/index.json"} <= wheel_names
 
 
 def test_wheel_holds_the_pages_of_rules_and_the_decks_that_examples_stand_on(wheel_names: set[str]) -> None:

@@ -44,7 +44,7 @@ class LintContext:
     def __post_init__(self) -> None:
         """Take the keyword text of a document."""
         if self.text is None and not self.deck.origin.takes_edits:
-            from mudline.language.deck.document_text import read_as_text  # noqa: PLC0415 - few decks are documents
+            from mudline.language.deck.document import read_as_text  # noqa: PLC0415 - few decks are documents
 
             self.deck = read_as_text(self.deck)
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.diagnostics import DeckError
-from mudline.language.keywords.numbers import cut_number
+from mudline.language.keywords.text import cut_number
 from tests.helpers.builders.documents import document
 from tests.helpers.builders.spellings import cased, comments, gaps, pads
 

@@ -8,7 +8,7 @@ import pytest
 
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
-from mudline.language.deck.faulty_blocks import with_raw_lines
+from mudline.language.deck.keyword_text import with_raw_lines
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.diagnostics import DeckError, Diagnostic, Severity
@@ -96,7 +96,7 @@ def test_other_blocks_are_values_and_a_deck_without_faults_stays() -> None:
 
 def test_lines_beside_what_keyword_text_cannot_say_are_refused() -> None:
     document = carried(MISPLACED, "json").replace('"set": "Pipe"', '"set": "Pipe, line"')
-    with pytest.raises(DeckError, match=r"sections\[0\].blocks\[1\].lines\[2\]: '1O.0' is not a number"):
+    with pytest.raises(DeckError, match=r"blocks\[4\].sets\[0\].set cannot be written as keyword text: 'Pipe, line'"):
         load_bytes(document.encode(), "deck.json")
 
 

@@ -9,7 +9,7 @@ import pytest
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Opaque
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import can_keep, is_read
+from mudline.language.keywords.contents import is_read, keeps_lines
 from mudline.language.keywords.model import Block
 from tests.helpers.builders.scenes import all_reported, deck_of, faults
 from tests.language.deck.test_forms import held
@@ -38,7 +38,7 @@ def test_the_example_is_read_without_a_finding_and_goes_through_every_form(decla
         deck = deck_of(text)
         assert deck.problems == []
         assert type(deck.sections[0].blocks[0]) is declared
-        assert is_read(deck.sections[0].blocks[0]) or can_keep(declared)
+        assert is_read(deck.sections[0].blocks[0]) or keeps_lines(declared)
         held(deck)
         assert dump(deck_of(dump(deck, "keyword")), "keyword") == dump(deck, "keyword")
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import OpenBlock, can_keep, is_read, kept_lines, openers
+from mudline.language.keywords.contents import OpenBlock, is_read, keeps_lines, kept_lines, openers
 from mudline.language.keywords.model import Block, Record, record_schema
 from tests.helpers.builders.scenes import deck_of, faults
 
@@ -128,7 +128,7 @@ def test_any_lines_of_an_open_block_go_through_every_form(lines: list[str]) -> N
 
 
 @pytest.mark.parametrize("block", catalogue.block_classes())
-def test_every_record_of_an_open_block_can_keep_lines(block: type[Block]) -> None:
+def test_every_record_of_an_open_block_keeps_lines_lines(block: type[Block]) -> None:
     records = list(_records(block))
     if block.open_lines:
         assert issubclass(block, OpenBlock)
@@ -137,7 +137,7 @@ def test_every_record_of_an_open_block_can_keep_lines(block: type[Block]) -> Non
         governing = [slot for slot in record_schema(record).slots if slot.about.opaque is not None]
         assert not governing or "unread" in record.model_fields
         assert all(slot.key in openers(block) for slot in governing)
-    assert can_keep(block) == any("unread" in record.model_fields for record in [block, *records])
+    assert keeps_lines(block) == any("unread" in record.model_fields for record in [block, *records])
 
 
 def _records(part: type[Record]) -> list[type[Record]]:

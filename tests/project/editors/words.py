@@ -1,15 +1,12 @@
-"""The words that are coloured, from the catalogue: sections, keywords, their settings and what these may be."""
+"""The words that editors colour, from the catalogue: sections, keywords, their settings and what these may be."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from typing import Any
 
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, Part, record_schema
-
-WORDS = "src/mudline/language/highlighting/words.json"
 
 
 def words() -> dict[str, Any]:
@@ -32,11 +29,6 @@ def _words_of(blocks: list[type[Block]]) -> dict[str, Any]:
         "slashes": any(block.slashes for block in blocks),
         "settings": {key: list(dict.fromkeys(choices)) for key, choices in sorted(found.items())},
     }
-
-
-def words_text() -> str:
-    """The whole file."""
-    return json.dumps(words(), indent=1) + "\n"
 
 
 def _each_setting(part: type[Part]) -> Iterator[tuple[str, tuple[str, ...]]]:

@@ -17,7 +17,7 @@ from mudline.checks.rules.seabed_position import first_of
 from mudline.language.deck.model import Opaque, raw_lines
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_give
-from mudline.language.keywords.contents import idents_given, may_name
+from mudline.language.keywords.contents import idents_given, kinds_of
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
@@ -213,7 +213,7 @@ def _named_nodes(context: LintContext) -> Mask:
         if not isinstance(block, Opaque):
             if block.facts.defines in ("nodes", "elements"):
                 continue
-            if may_name(type(block), Names.NODE):
+            if Names.NODE in kinds_of(type(block), "names"):
                 numbers.update(ident for _, ident in idents_given(block, Names.NODE) if isinstance(ident, int))
         for word in (word for line in lines for word in line.replace("=", ",").split(",")):
             value = read_number(word.strip())

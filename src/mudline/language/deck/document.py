@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Collection
+from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Any
+from typing import Any, cast
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic.json_schema import models_json_schema
@@ -12,26 +13,21 @@ from pydantic.json_schema import models_json_schema
 from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.codes import DOC002
 from mudline.language.deck import MARK
-from mudline.language.deck.document_text import read_as_text
 from mudline.language.deck.faults import Faults, Locate, document_path, refusal, respelt
-from mudline.language.deck.faulty_blocks import is_faulty
-from mudline.language.deck.keyword_text import sampled
-from mudline.language.deck.likeness import RawLines
+from mudline.language.deck.keyword_text import is_faulty, raw_places, sampled, to_keyword
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
-from mudline.language.deck.reading import Findings
-from mudline.language.diagnostics import Problem, Severity, Where
+from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.diagnostics import DeckError, Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import is_read, is_refused
 from mudline.language.keywords.faults import DocumentPath, shown
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.reader import read_block
 from mudline.language.keywords.table import AS_TABLES, Table
 from mudline.language.keywords.text import hint
 from mudline.language.keywords.values import Text
-from mudline.language.keywords.writer import block_lines
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Leaf, LeafKind, canonical_name, mark_of, parse
+from mudline.language.syntax.tree import canonical_name, mark_of
 
 FORMAT = f"{MARK}1"
 
@@ -118,6 +114,66 @@ class DocumentOrigin(Origin):
         return self.locate(document_path(Where(section, block, path)))
 
 
+@dataclass
+class LinesOrigin(TextOrigin):
+    """Places in the keyword text of the values of a document whose blocks `raw` are lines.
+
+    `document` knows the places in the file.
+    """
+
+    takes_edits = False
+    document: Origin = field(default_factory=Origin)
+    raw: Collection[Where] = ()
+
+    def place_in_file(self, problem: Problem) -> Range:
+        """Lines and columns of a problem in the document: of the line, where a block has lines."""
+        where = self.where(problem)
+        return START if where is None else self.document.place(replace(problem, span=None, where=where))
+
+    def where(self, problem: Problem) -> Where | None:
+        """Return the place of a problem among the values and lines of the document."""
+        where, span = problem.where, problem.span
+        if span is None and where is not None and where._replace(path=()) in self.raw:
+            span = self.span(where)
+        if span is not None:
+            line = self._line(span.start)
+            own = where is not None and where.path and where[:2] == line[:2] and not line.path
+            where = where if own else line
+        return where
+
+    def _line(self, offset: int) -> Where:
+        """The line of a block, a section or the preamble that an offset of the text is in, else the block."""
+        line = self.source.position(offset)[0]
+        found, first = Where(path=("preamble", line - 1)), 0
+        for i, section in enumerate(self.tree.sections):
+            for j, head in enumerate([section.head, *(block.head for block in section.blocks)], -1):
+                at = self.source.position(head.span.start)[0] if head else 0
+                if first < at <= line:
+                    found, first = Where(i, j), at
+        if line > first > 0 and (found in self.raw or found.block < 0):
+            return found.inside("lines", line - first - 1)
+        return found
+
+
+def read_as_text(deck: Deck) -> Deck:
+    """Return the deck of a document as it is read from its keyword text; findings have their places in the document.
+
+    What a keyword text cannot say is returned as it is.
+    """
+    try:
+        return _read_as_text(deck)
+    except DeckError:
+        return deck
+
+
+def _read_as_text(deck: Deck, *, as_lines: bool = False) -> Deck:
+    text = to_keyword(deck, as_lines=as_lines)
+    read = read_source(Source.from_bytes(text.encode(), deck.source or deck.file), units=deck.units)
+    origin = cast("TextOrigin", read.origin)
+    origin = LinesOrigin(origin.tree, origin.read, document=deck.origin, raw=frozenset(raw_places(deck)))
+    return replace(read, file=deck.file, source=deck.source, folder=deck.folder, origin=origin)
+
+
 def decoded(data: bytes, file: str, form: str) -> str:
     """Return the text of a JSON or YAML file; raises DeckError if it is not UTF-8."""
     try:
@@ -144,9 +200,6 @@ class _DocumentReader:
         self.document = document
         self.faults = Faults(file, locate, document)
         self.deck = Deck(file, origin=DocumentOrigin(locate))
-        self.findings = Findings(self.deck.problems)
-        self.unreadable: list[Problem] = []
-        """Faults of blocks that are given as lines."""
 
     def read(self) -> Deck:
         document = self._format()
@@ -157,8 +210,6 @@ class _DocumentReader:
         if deck.units not in UNIT_SYSTEMS:
             self.faults.add(("units",), f"expected one of {', '.join(UNIT_SYSTEMS)}, found {shown(deck.units)}")
         deck.preamble = self._lines(document.get("preamble", []), ("preamble",), "$")
-        if deck.preamble:
-            self._stray(deck.preamble, "before the first section", Where(path=("preamble",)))
         deck.comments = self._checked(list[Comment], document.get("comments", []), ("comments",), [])
         sections = document.get("sections")
         if isinstance(sections, list):
@@ -167,21 +218,29 @@ class _DocumentReader:
         else:
             self.faults.add(("sections",), "expected a list of sections")
         self.faults.raise_any()
-        normalise_comments(deck)
-        if self.unreadable:
-            deck = self._from_lines()
+        if deck.preamble or deck.comments or any(map(_has_lines, deck.sections)):
+            deck = self._as_text()
         self.faults.raise_respelt(deck)
         return deck
 
-    def _from_lines(self) -> Deck:
-        """The deck read as its keyword text, as lines of a block are at fault."""
-        self.deck.problems += self.unreadable
-        deck = read_as_text(self.deck)
-        if deck is self.deck:  # a keyword text cannot say it
-            for problem in self.unreadable:
-                self.faults.add(document_path(problem.where or Where()), problem.message)
-            self.faults.raise_any()
-        return deck
+    def _as_text(self) -> Deck:
+        """Return the deck as read from its keyword text, which gives comments and lines their places and findings.
+
+        Raises DeckError if keyword text cannot express the deck, for a deck that has a block with a model as lines.
+        """
+        deck = self.deck
+        try:
+            read = _read_as_text(deck, as_lines=True)
+        except DeckError:
+            blocks = deck.every_block()
+            if any(type(block) is Opaque and catalogue.block_class(name, block.keyword) for _, name, block in blocks):
+                raise
+            return deck
+        origin = cast("LinesOrigin", read.origin)
+        if any(map(is_faulty, origin.read.values())):
+            return read
+        problems = [replace(each, span=None, where=origin.where(each), repair=None) for each in read.problems]
+        return replace(read, origin=deck.origin, problems=problems)
 
     def _format(self) -> dict[str, Any]:
         if isinstance(self.document, dict):
@@ -217,25 +276,6 @@ class _DocumentReader:
                 self.faults.add((*path, index), f"a line that begins with {mark} opens a section or a block")
         return lines
 
-    def _stray(self, lines: list[str], words: str, where: Where) -> tuple[list[str], list[str]]:
-        """Report lines under no keyword or in no section; return the data lines and the texts of comments."""
-        text = "\n".join(lines)
-        tree = parse(Source("", text)).preamble
-
-        def place(leaf: Leaf) -> Where:
-            return where._replace(path=(*where.path, text.count("\n", 0, leaf.span.start)))
-
-        def inner(leaf: Leaf) -> list[str]:
-            return text[slice(*leaf.span)].removesuffix("\n").split("\n")
-
-        data = [leaf for leaf in tree.leaves if leaf.kind not in (LeafKind.BLANK, LeafKind.COMMENT)]
-        stray = [line for leaf in data for line in inner(leaf)]
-        if data:
-            self.findings.stray(len(stray), words, None, place(data[0]))
-        for block in tree.blocks:
-            self.findings.before_sections(block.name, None, place(block.head))
-        return stray, [inner(leaf)[0][1:] for leaf in tree.leaves if leaf.kind is LeafKind.COMMENT]
-
     def _section(self, item: object, index: int) -> Section:
         path: DocumentPath = ("sections", index)
         section = Section("")
@@ -246,58 +286,15 @@ class _DocumentReader:
         section.name = canonical_name("$" + self._checked(Text, item.get("name"), (*path, "name"), ""))
         section.lines = self._lines(item.get("lines", []), (*path, "lines"), "$*")
         section.comments = self._checked(list[Comment], item.get("comments", []), (*path, "comments"), [])
-        if section.name not in catalogue.SECTIONS:
-            self.findings.unknown_section(section.name, Where(index))
-        if section.lines:
-            section.lines, texts = self._stray(section.lines, f"of ${section.name}", Where(index, -1, ("lines",)))
-            section.comments[:0] = [Comment(before=0, text=text) for text in texts]
         blocks = item.get("blocks")
         if not isinstance(blocks, list):
             self.faults.add((*path, "blocks"), "expected a list of blocks")
             return section
         for number, block in enumerate(blocks):
             read = self._block(section.name, block, (*path, "blocks", number))
-            if isinstance(read, Opaque):
-                read = self._with_model(read, section, Where(index, number, ("lines",)))
-            elif read is not None and not is_read(read):
-                lines = [*block_lines(read)][1:]
-                read = self._with_model(Opaque(keyword=read.keyword, lines=lines), section, Where(index, number))
             if read is not None:
                 section.blocks.append(read)
         return section
-
-    def _with_model(self, block: Opaque, section: Section, where: Where) -> Block | Opaque:
-        """Return the model that raw lines describe, read like keyword text, if the keyword has a model.
-
-        `where` is the block, or its lines if the document gives the block as raw lines.
-        """
-        declared = catalogue.block_class(section.name, block.keyword)
-        source = Source("", "\n".join(["$S", f"*{block.keyword}", *block.lines, ""]))
-        raw = parse(source).sections[0].blocks[0]
-        lines = RawLines(source.text, raw)
-        if declared is None:
-            self.findings.no_model(block.keyword, section.name, where._replace(path=()), lines)
-            return block
-        read = read_block(source.text, raw, declared, last=False)
-        if read.opaque:
-            self.findings.no_model(block.keyword, section.name, where._replace(path=()), lines)
-        faulty = bool(where.path) and is_faulty(read)
-        if faulty and not any(one.weight is Severity.ERROR for one in read.problems):
-            self.unreadable.append(Problem(DOC002, "a value that a document does not hold", where=where))
-        for problem in read.problems:
-            line = source.position(problem.span.start)[0] if problem.span else 0
-            inside = where.inside(max(line - 3, 0)) if where.path else where
-            placed = replace(problem, span=None, where=inside, repair=None)
-            if problem.weight is not Severity.ERROR:
-                self.deck.problems.append(placed)
-            elif faulty:
-                self.unreadable.append(placed)
-            else:
-                self.faults.add(document_path(inside), problem.message)
-        if read.opaque or faulty:
-            return block
-        section.comments[:0] = [Comment(before=where.block + 1, text=text) for text in read.trailing]
-        return read.model
 
     def _block(self, section: str, item: object, path: DocumentPath) -> Block | Opaque | None:
         if not isinstance(item, dict) or not isinstance(item.get("keyword"), str):
@@ -329,45 +326,10 @@ class _DocumentReader:
         return block
 
 
-def normalise_comments(deck: Deck) -> None:
-    """Move comments to the owner that keyword text would give them; the written deck stays the same.
-
-    Comments before the first section become lines of the preamble. Comments behind a block without a model become lines
-    of the block. Comments at the end of a section move before the next section. An index beyond the last item means
-    behind the last item.
-    """
-    waiting = sorted(deck.comments, key=lambda comment: comment.before)[::-1]
-    deck.comments = []
-    while waiting and (waiting[-1].before == 0 or not deck.sections):
-        deck.preamble.append(f"C{waiting.pop().text}")
-    for number, section in enumerate(deck.sections, 1):
-        following = _normalise_section(section)
-        while waiting and (waiting[-1].before <= number or number == len(deck.sections)):
-            following.append(waiting.pop().text)
-        last = section.blocks[-1] if section.blocks else None
-        if last is None:
-            section.comments += [Comment(before=0, text=text) for text in following]
-        elif isinstance(last, Opaque):
-            last.lines += [f"C{text}" for text in following]
-        else:
-            deck.comments += [Comment(before=number, text=text) for text in following]
-
-
-def _normalise_section(section: Section) -> list[str]:
-    """Move the comments of a section to their owners; return the texts behind the last block."""
-    following: list[str] = []
-    comments = sorted(section.comments, key=lambda comment: comment.before)
-    section.comments = []
-    for comment in comments:
-        before = min(comment.before, len(section.blocks))
-        owner = section.blocks[before - 1] if before else None
-        if before and before == len(section.blocks):
-            following.append(comment.text)
-        elif isinstance(owner, Opaque):
-            owner.lines.append(f"C{comment.text}")
-        else:
-            section.comments.append(Comment(before=before, text=comment.text))
-    return following
+def _has_lines(section: Section) -> bool:
+    """Return True if a section has comments, unread lines, or a name that is not known."""
+    has_lines = section.lines or section.comments or section.name not in catalogue.SECTIONS
+    return bool(has_lines) or any(isinstance(block, Opaque) or not is_read(block) for block in section.blocks)
 
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"

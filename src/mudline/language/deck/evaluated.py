@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 from types import NoneType
 from typing import TYPE_CHECKING, Any, NewType, cast
-
-from pydantic import BaseModel
 
 from mudline.language.codes.fields import SYN002
 from mudline.language.codes.references import REF007
@@ -70,7 +67,6 @@ def all_labels_read(deck: Deck) -> bool:
 
 
 _PLAIN = frozenset({float, int, str, NoneType})
-_EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.WHOLE_OR_LABEL, Kind.REAL_OR_NAME)
 EvaluatedDeck = NewType("EvaluatedDeck", Deck)
 """Deck without equations in the sections of the model and of the analysis; created only by `evaluated`.
 
@@ -88,54 +84,21 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
     copies = [type(each)(each.name, [*each.blocks], each.comments, each.lines) for each in deck.sections]
     ready = EvaluatedDeck(replace(deck, sections=copies))
     labelled = "LABEL" in deck.keywords()
-    plain = deck.origin.no_equations and not deck.bases and not labelled
-    written = [
-        (i, j)
-        for i, section in enumerate(() if plain else copies)
-        if section.name != DEFINING
-        for j, block in enumerate(section.blocks)
-        if labelled or _has_equation(block)
-    ]
-    if not written and "PARAMETERS" not in deck.keywords(DEFINING):
+    equations = not deck.origin.no_equations or bool(deck.bases) or "PARAMETERS" in deck.keywords(DEFINING)
+    if not labelled and not equations:
         return ready, []
     parameters = Parameters(deck)
     evaluator = _Evaluator(parameters)
     if labelled:
         evaluator.labels = labels_of(deck, parameters, evaluator.problems)
-    for i, j in written:
-        evaluator.blocks = Blocks.ALWAYS if copies[i].name == "MODEL" else Blocks.NEVER
-        copies[i].blocks[j] = evaluator.part(copies[i].blocks[j], Where(i, j))
+    for i, section in enumerate(copies):
+        evaluator.blocks = Blocks.ALWAYS if section.name == "MODEL" else Blocks.NEVER
+        for j, block in enumerate(section.blocks if section.name != DEFINING else ()):
+            section.blocks[j] = evaluator.part(block, Where(i, j))
     noticed = parameters.problems
     if evaluator.lacks_parameter:
         noticed = [replace(problem, blocks=Blocks.ALWAYS) for problem in noticed]
     return ready, noticed + evaluator.problems
-
-
-@cache
-def _evaluated_slots(kind: type[BaseModel]) -> tuple[str, ...]:
-    """Return the fields of a part that can hold an equation, directly or in an inner part; none for other classes.
-
-    The check whether a class is a part takes longer than this cache.
-    """
-    slots = record_schema(kind).slots if issubclass(kind, Part) else ()
-    return tuple(slot.name for slot in slots if slot.row or slot.record or slot.kind in _EVALUATED)
-
-
-def _has_equation(value: Any) -> bool:
-    """Return True if there is an equation in a value or below it; most values cannot hold an equation."""
-    if isinstance(value, Equation):
-        return True
-    if isinstance(value, Table):
-        return value.equations
-    held = value
-    if not isinstance(value, list):
-        kind: type[BaseModel] = type(value)
-        names = _evaluated_slots(kind)
-        held = map(value.__dict__.__getitem__, names) if names else ()  # faster than `getattr` of a model
-    for item in held:  # noqa: SIM110 - `any` takes twice the time
-        if type(item) not in _PLAIN and _has_equation(item):
-            return True
-    return False
 
 
 class _Evaluator:
@@ -151,9 +114,10 @@ class _Evaluator:
         changed: dict[str, object] = {}
         kind: type[Part] = type(part)
         for slot in record_schema(kind).slots:
-            value = getattr(part, slot.name)
-            inner = where._replace(path=(*where.path, slot.order if slot.of_list else slot.json))
-            new = self._value(value, slot, inner)
+            value = part.__dict__[slot.name]  # faster than `getattr` of a model
+            if type(value) in _PLAIN:
+                continue
+            new = self._value(value, slot, where.inside(slot.order if slot.of_list else slot.json))
             if new is not value:
                 changed[slot.name] = new
         return part.model_copy(update=changed) if changed else part
@@ -168,7 +132,7 @@ class _Evaluator:
         if isinstance(value, Part):
             return self.part(value, where)
         if isinstance(value, list) and value and isinstance(value[0], Part):
-            new = [self.part(item, where._replace(path=(*where.path, i))) for i, item in enumerate(value)]
+            new = [self.part(item, where.inside(i)) for i, item in enumerate(value)]
             return new if any(a is not b for a, b in zip(new, value, strict=True)) else value
         if self.labels and isinstance(value, list) and any(isinstance(item, Label) for item in value):
             return [self._labelled(item, slot) for item in value]
@@ -212,7 +176,7 @@ class _Evaluator:
         words = dict(table.words)
         for (row, column), word in table.words.items():
             if isinstance(word, Equation):
-                place = where._replace(path=(*where.path, row, column))
+                place = where.inside(row, column)
                 values[row, column] = self._number(word, columns[column].kind, columns[column].label, place)
                 del words[row, column]
             elif isinstance(word, Label) and slot.row:

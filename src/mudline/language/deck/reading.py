@@ -19,9 +19,8 @@ from mudline.language.diagnostics import MORE, Code, Problem, Severity, Span, Wh
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import meant_in, meant_section, words_behind
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.numbers import TOO_WIDE
 from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
-from mudline.language.keywords.text import hint, instead
+from mudline.language.keywords.text import TOO_WIDE, hint, instead
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, SyntaxTree, parse
@@ -45,87 +44,6 @@ _ENDS = 2
 _OF_EVERY_BLOCK = {"keyword", "comments"}
 _NUMBERS = re.compile(r"(?=.*[,\d])(?:[,* ]++|[-+.\d][-+.\dED]*+)*+")
 """Rest of a line that begins with asterisks in place of a number: numbers, or asterisks behind a comma."""
-
-
-class Findings:
-    """Findings of reading, added to the problems of a deck; a place is a span of the text or a `Where`."""
-
-    def __init__(self, problems: list[Problem]) -> None:
-        self.problems = problems
-        self.reported: Counter[str] = Counter()
-
-    def unknown_section(self, name: str, where: Where, head: Span | None = None) -> None:
-        """Report a section that is not in the catalogue; `head` is its line in a text."""
-        if not self._reports(SYN010, None, where):
-            return
-        near = "" if catalogue.sections_of(name) else meant_section(name)
-        instead_ = f"*{name}" if catalogue.sections_of(name) else f"${near}" if near else ""
-        suggested = f" (did you mean *{name}?)" if catalogue.sections_of(name) else _meant(name, near)
-        message = f"section ${name} is not known{suggested}: it is passed through unchanged"
-        self._misspelt(SYN010, message, where, instead_, head)
-
-    def no_model(self, keyword: str, section: str, where: Where, lines: RawLines, head: Span | None = None) -> None:
-        """Report a block that is passed through, unless its keyword is known and allowed in the section.
-
-        `lines` are the lines below the keyword line, `head` is the keyword line in a text.
-        """
-        sections = catalogue.sections_of(keyword)
-        if sections is None:
-            if self._reports(SYN009, None, where):
-                near = lines.meant(keyword, section)
-                message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
-                replacement = f"*{near}" if catalogue.entries(near) else ""
-                if keyword.startswith("*"):
-                    rest = keyword.lstrip("* ")
-                    if _NUMBERS.fullmatch(rest):
-                        message = f"*{keyword[:40]} ends the block before it: {TOO_WIDE}, write the number itself"
-                        self.problems.append(Problem(SYN009, message, None, Severity.ERROR, where))
-                        return
-                    message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
-                    replacement = f"C {rest}"
-                self._misspelt(SYN009, message, where, replacement, head)
-        elif (
-            sections
-            and section not in sections
-            and section in catalogue.SECTIONS
-            and self._reports(SYN008, None, where)
-        ):
-            near = meant_in(keyword, section)
-            message = f"*{keyword} does not belong in ${section}{hint(near)}: it belongs in {_belongs(keyword)}"
-            repair = instead(f"*{near}", head) if head and near else None
-            certain = section in catalogue.CERTAIN_SECTIONS and (near or catalogue.has_certain_section(keyword))
-            self.problems.append(Problem(SYN008, message, None, None if certain else Severity.INFO, where, repair))
-
-    def _misspelt(self, code: Code, message: str, where: Where, replacement: str, head: Span | None) -> None:
-        """Report an unknown name: a warning if a known name was probably meant."""
-        repair = instead(replacement, head) if head else None
-        self.problems.append(Problem(code, message, None, Severity.WARNING if replacement else None, where, repair))
-
-    def before_sections(self, keyword: str, span: Span | None = None, where: Where | None = None) -> None:
-        """Report a block before the first section."""
-        if self._reports(SYN007, span, where):
-            message = f"*{keyword} stands before any $SECTION: put it in its section, {_belongs(keyword)}"
-            self.problems.append(Problem(SYN007, message, span, None, where))
-
-    def stray(
-        self, count: int, place: str, span: Span | None = None, where: Where | None = None, *, title: bool = False
-    ) -> None:
-        """Report the data lines of a place under no keyword, in one finding at the first of them.
-
-        `title`: they are words above the first section or above an unknown section; the finding is then an info.
-        """
-        if self._reports(SYN011, span, where):
-            lines = counted(count, "line")
-            message = f"{lines} {place} under no keyword: not read; write a title as a comment, C and a space"
-            self.problems.append(Problem(SYN011, message, span, Severity.INFO if title else None, where))
-
-    def _reports(self, code: Code, span: Span | None, where: Where | None) -> bool:
-        """Count a finding of a code; return True if it is reported: the wrong kind of file has one on each line."""
-        self.reported[code.code] += 1
-        count = self.reported[code.code]
-        if count == MOST_REPORTED + 1:
-            self.problems.append(Problem(code, MORE, span, None, where))
-        return count <= MOST_REPORTED
 
 
 def _meant(name: str, near: str) -> str:
@@ -248,7 +166,7 @@ class _DeckReader:
         self.text = tree.source.unified
         self.origin = TextOrigin(tree)
         self.problems: list[Problem] = list(tree.source.problems)
-        self.findings = Findings(self.problems)
+        self.reported: Counter[str] = Counter()
         self.older = tree.source.name.lower().endswith(".das")
         self.deck = Deck(tree.source.name, _own_name(tree.source.name), origin=self.origin)
 
@@ -279,7 +197,10 @@ class _DeckReader:
             )
             self.problems.append(Problem(SYN007, message, place))
         for block in preamble.blocks if not foreign else ():
-            self.findings.before_sections(block.name, trimmed(self.text, *block.head.span))
+            span = trimmed(self.text, *block.head.span)
+            if self._reports(SYN007, span, None):
+                message = f"*{block.name} stands before any $SECTION: put it in its section, {_belongs(block.name)}"
+                self.problems.append(Problem(SYN007, message, span))
         first = self.tree.sections[0].head if self.tree.sections else None
         end = first.span.start if first else len(self.text)
         self.deck.preamble = self._lines(Span(0, end)) if end else []
@@ -303,14 +224,17 @@ class _DeckReader:
             count = sum(len(self._lines(leaf.span)) for leaf in data)
             place = trimmed(self.text, first.start, first.end if end < 0 else end)
             title = title and not any(_DATA.match(line) for leaf in data for line in self._lines(leaf.span))
-            self.findings.stray(count, where, place, title=title)
+            lines = counted(count, "line")
+            message = f"{lines} {where} under no keyword: not read; write a title as a comment, C and a space"
+            if self._reports(SYN011, place, None):
+                self.problems.append(Problem(SYN011, message, place, Severity.INFO if title else None))
 
     def _section(self, index: int, raw: RawSection) -> None:
         section = Section(raw.name)
         self.deck.sections.append(section)
         known = raw.name in catalogue.SECTIONS
         if not known:
-            self.findings.unknown_section(raw.name, Where(index), self.origin.head(Where(index)))
+            self._unknown_section(raw.name, Where(index))
         self._stray(raw.leaves, f"of ${raw.name}", title=not known)
         for leaf in raw.leaves:
             line = self._lines(leaf.span)
@@ -356,7 +280,62 @@ class _DeckReader:
             message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head))
             return
-        self.findings.no_model(raw.name, section.name, where, RawLines(self.text, raw), head)
+        self._no_model(raw, section.name, where)
+
+    def _unknown_section(self, name: str, where: Where) -> None:
+        """Report a section that is not in the catalogue."""
+        if not self._reports(SYN010, None, where):
+            return
+        near = "" if catalogue.sections_of(name) else meant_section(name)
+        instead_ = f"*{name}" if catalogue.sections_of(name) else f"${near}" if near else ""
+        suggested = f" (did you mean *{name}?)" if catalogue.sections_of(name) else _meant(name, near)
+        message = f"section ${name} is not known{suggested}: it is passed through unchanged"
+        self._misspelt(SYN010, message, where, instead_)
+
+    def _no_model(self, raw: RawBlock, section: str, where: Where) -> None:
+        """Report a block that is passed through, unless its keyword is known and allowed in the section."""
+        keyword = raw.name
+        sections = catalogue.sections_of(keyword)
+        if sections is None:
+            if self._reports(SYN009, None, where):
+                near = RawLines(self.text, raw).meant(keyword, section)
+                message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
+                replacement = f"*{near}" if catalogue.entries(near) else ""
+                if keyword.startswith("*"):
+                    rest = keyword.lstrip("* ")
+                    if _NUMBERS.fullmatch(rest):
+                        message = f"*{keyword[:40]} ends the block before it: {TOO_WIDE}, write the number itself"
+                        self.problems.append(Problem(SYN009, message, None, Severity.ERROR, where))
+                        return
+                    message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
+                    replacement = f"C {rest}"
+                self._misspelt(SYN009, message, where, replacement)
+        elif (
+            sections
+            and section not in sections
+            and section in catalogue.SECTIONS
+            and self._reports(SYN008, None, where)
+        ):
+            near = meant_in(keyword, section)
+            message = f"*{keyword} does not belong in ${section}{hint(near)}: it belongs in {_belongs(keyword)}"
+            head = self.origin.head(where)
+            repair = instead(f"*{near}", head) if head and near else None
+            certain = section in catalogue.CERTAIN_SECTIONS and (near or catalogue.has_certain_section(keyword))
+            self.problems.append(Problem(SYN008, message, None, None if certain else Severity.INFO, where, repair))
+
+    def _misspelt(self, code: Code, message: str, where: Where, replacement: str) -> None:
+        """Report an unknown name: a warning if a known name was probably meant."""
+        head = self.origin.head(where)
+        repair = instead(replacement, head) if head else None
+        self.problems.append(Problem(code, message, None, Severity.WARNING if replacement else None, where, repair))
+
+    def _reports(self, code: Code, span: Span | None, where: Where | None) -> bool:
+        """Count a finding of a code; return True if it is reported: the wrong kind of file has one on each line."""
+        self.reported[code.code] += 1
+        count = self.reported[code.code]
+        if count == MOST_REPORTED + 1:
+            self.problems.append(Problem(code, MORE, span, None, where))
+        return count <= MOST_REPORTED
 
     def _truncated(self) -> None:
         """Report a file that was probably cut: its last token has a fault, and its last line end is missing."""

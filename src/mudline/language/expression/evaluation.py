@@ -1,8 +1,5 @@
 """Values of equations: operators, functions, and the errors that they raise.
 
-A part is evaluated by a generator that yields the parts whose values it needs, one after the other. So no depth of
-nesting can exhaust the interpreter's stack, and a part that is not needed is not evaluated.
-
 The manual of the language names `if` and CONVERT and says that other functions exist; their list is not public.
 INFERRED: the functions here are the usual functions under their usual names. Angles are radians, `log` is base 10
 and `ln` natural as in spreadsheets; `mod`, `int`, `round` and `atan2` follow Fortran. CONVERT is left out, since
@@ -14,16 +11,15 @@ from __future__ import annotations
 import math
 import operator as python
 import sys
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Context, Decimal
 from types import MappingProxyType
-from typing import Final, NamedTuple, assert_never, cast
+from typing import Final, NamedTuple, assert_never
 
 from mudline.basics.limits import LONGEST_TEXT
 from mudline.language.diagnostics import Span
 from mudline.language.expression.nodes import (
-    LEAVES,
     Brackets,
     Call,
     EvaluationError,
@@ -243,7 +239,6 @@ def apply(function: Function, arguments: Sequence[EvaluatedPart], span: Span) ->
 
 
 Lookup = Callable[[str], float | str]
-Steps = Generator[Node, Value, Value]
 
 
 def evaluate(expression: Expression, lookup: Lookup) -> float | str:
@@ -263,48 +258,38 @@ def evaluate(expression: Expression, lookup: Lookup) -> float | str:
         EvaluationError: a part has no finite value, text is found where a number is expected, or a function has
             too many or too few arguments.
     """
-    value: Value | None = None
-    waiting: list[Steps] = []
-    steps = _steps(expression.root, lookup)
-    while True:
-        try:
-            part = next(steps) if value is None else steps.send(value)
-        except StopIteration as done:
-            value = cast("Value", done.value)
-            if not waiting:
-                return value
-            steps = waiting.pop()
-        else:
-            value = None
-            waiting.append(steps)
-            steps = _steps(part, lookup)
+    return _evaluated(expression.root, lookup).value
 
 
-def _steps(node: Node, lookup: Lookup) -> Steps:
-    """Yield the parts whose values a part needs, receive these values, and return the value of the part."""
+def _evaluated(node: Node, lookup: Lookup) -> EvaluatedPart:
+    """Return the value of a part; it evaluates its inner parts only as it needs them."""
     match node:
-        case Number() | Text() | Name():
-            return _leaf(node, lookup)
+        case Number() | Text():
+            value: Value = node.value
+            if isinstance(value, float) and not math.isfinite(value):
+                raise EvaluationError("the number is too large", *node.span)
+        case Name():
+            value = _parameter(node, lookup)
         case Brackets():
-            return (yield node.inner)
-        case Prefix() | Power() | Relation():
-            return (yield from _operation(node))
+            value = _evaluated(node.inner, lookup).value
+        case Prefix():
+            value = _prefixed(node.operator, _evaluated(node.operand, lookup))
+        case Power():
+            value = power(_evaluated(node.base, lookup), _evaluated(node.exponent, lookup))
+        case Relation():
+            value = compare(node.operator, _evaluated(node.left, lookup), _evaluated(node.right, lookup))
         case OperatorChain():
-            return (yield from _chain(node, lookup))
+            total = _evaluated(node.operands[0], lookup)
+            for operator, operand in zip(node.operators, node.operands[1:], strict=True):
+                total = arithmetic(operator, total, _evaluated(operand, lookup))
+            value = total.value
         case Logical():
-            return (yield from _logical(node.operator, node.operands))
+            value = _logical(node.operator, node.operands, lookup)
         case Call():
-            return (yield from _call(node))
+            value = _call(node, lookup)
         case _:
             assert_never(node)
-
-
-def _leaf(node: Number | Text | Name, lookup: Lookup) -> Value:
-    if isinstance(node, Name):
-        return _parameter(node, lookup)
-    if isinstance(node, Number) and not math.isfinite(node.value):
-        raise EvaluationError("the number is too large", *node.span)
-    return node.value
+    return EvaluatedPart(value, node.span)
 
 
 def _parameter(node: Name, lookup: Lookup) -> Value:
@@ -322,39 +307,19 @@ def _parameter(node: Name, lookup: Lookup) -> Value:
     return float(value)
 
 
-def _operation(node: Prefix | Power | Relation) -> Steps:
-    if isinstance(node, Prefix):
-        return _prefixed(node.operator, EvaluatedPart((yield node.operand), node.operand.span))
-    first, second = (node.base, node.exponent) if isinstance(node, Power) else (node.left, node.right)
-    left = EvaluatedPart((yield first), first.span)
-    right = EvaluatedPart((yield second), second.span)
-    return power(left, right) if isinstance(node, Power) else compare(node.operator, left, right)
-
-
 def _prefixed(operator: str, operand: EvaluatedPart) -> float:
     if operator == "not":
         return float(not operand.truth)
     return -operand.number if operator == "-" else operand.number
 
 
-def _chain(node: OperatorChain, lookup: Lookup) -> Steps:
-    total: EvaluatedPart | None = None
-    for operator, part in zip(("", *node.operators), node.operands, strict=True):
-        value = _leaf(part, lookup) if isinstance(part, LEAVES) else (yield part)
-        operand = EvaluatedPart(value, part.span)
-        total = operand if total is None else arithmetic(operator, total, operand)
-    return cast("EvaluatedPart", total).value
-
-
-def _logical(operator: str, operands: Sequence[Node]) -> Steps:
+def _logical(operator: str, operands: Sequence[Node], lookup: Lookup) -> float:
     decisive = operator == "or"
-    for operand in operands:
-        if EvaluatedPart((yield operand), operand.span).truth is decisive:
-            return float(decisive)
-    return float(not decisive)
+    found = any(_evaluated(operand, lookup).truth is decisive for operand in operands)
+    return float(found) if decisive else float(not found)
 
 
-def _call(node: Call) -> Steps:
+def _call(node: Call, lookup: Lookup) -> Value:
     name = node.name.lower()
     form = FORMS.get(name) or FUNCTIONS.get(name)
     if form is None:
@@ -363,10 +328,7 @@ def _call(node: Call) -> Steps:
         raise EvaluationError(f"{name} needs {form.wants}, found {len(node.arguments)}", *node.span)
     if name == "if":
         condition, then, otherwise = node.arguments
-        return (yield then if EvaluatedPart((yield condition), condition.span).truth else otherwise)
+        return _evaluated(then if _evaluated(condition, lookup).truth else otherwise, lookup).value
     if name in FORMS:
-        return (yield from _logical(name, node.arguments))
-    arguments = []
-    for argument in node.arguments:
-        arguments.append(EvaluatedPart((yield argument), argument.span))  # noqa: PERF401 - a comprehension cannot yield
-    return apply(FUNCTIONS[name], arguments, node.span)
+        return _logical(name, node.arguments, lookup)
+    return apply(FUNCTIONS[name], [_evaluated(argument, lookup) for argument in node.arguments], node.span)

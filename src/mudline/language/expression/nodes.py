@@ -129,9 +129,6 @@ class Call(NamedTuple):
 
 Node = Number | Text | Name | Brackets | Prefix | Power | Relation | OperatorChain | Logical | Call
 
-LEAVES = (Number, Text, Name)
-"""Kinds of parts that have no inner parts."""
-
 
 class NameSpan(NamedTuple):
     """Use of a parameter: its name as written, and its place, a half-open range of code points."""

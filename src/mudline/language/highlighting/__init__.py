@@ -1,1 +1,1 @@
-"""Syntax highlighting of decks: the words of the language, and the lexer for Pygments."""
+"""Syntax highlighting of decks: the lexer for Pygments."""

@@ -1,32 +1,28 @@
-"""Lexer for Pygments, which finds it by the entry point `pygments.lexers`; only this module imports Pygments."""
+"""Lexer for Pygments, which finds it by the entry point `pygments.lexers`: decks in the colours of what is read."""
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from pygments.lexer import Lexer
 from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, Punctuation, String, Text, _TokenType
 
-Found = tuple[int, _TokenType, str]
+from mudline.language.diagnostics import Span
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.reader import schemas_of
+from mudline.language.syntax.fields import Field, first_key, read_line, trimmed
+from mudline.language.syntax.rows import blank_separated, line_spans, spells_number
+from mudline.language.syntax.source import Source
+from mudline.language.syntax.tree import Leaf, LeafKind, parse
 
-_LINE = re.compile(r"[^\n]*\n?")
-_NAME = re.compile(r"[ \t]+")
-_COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|\r?$)")
-_UNDECIDED = re.compile(r"C[A-Za-z]")
-_KEY = re.compile(r"([ \t]*)([A-Za-z](?:[\w \t-]*[\w-])?)([ \t]*)=")
-_NUMBER = re.compile(r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[EeDd][-+]?[0-9]+)?")
-_NUMBERS = re.compile(rf"[ \t]*{_NUMBER.pattern}(?:[ \t]+{_NUMBER.pattern})+[ \t\r\n]*")
-_INSIDE = r'(?:[^\[\]"\n]|"[^"\n]*")'
-_FIELD = re.compile(
-    rf'(?:(?<==)\[(?:{_INSIDE}|\[{_INSIDE}*\])*\]|(?<==)\[[^\n]*|"[^"\n]*"|\{{[^}}\n]*\}}|["{{][^\n]*|[^,\n"{{])+'
-)
-"""Field up to the next comma outside brackets, quotes and braces; without its closing mark it ends with the line."""
-_SLASHED = re.compile(r"[ \t]*/[^\n]*/")
+Found = tuple[Span, _TokenType]
+
+_WORD = re.compile(r"\S+")
+_BETWEEN = re.compile(r"\s+|\S+")
 _EQUATION = re.compile(
     r'(?P<text>"[^"]*"?)|(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?)'
     r"|(?P<word>(?:and|or|not)(?![\w.]))|(?P<call>[^\W\d][\w.]*(?=[ \t]*\())|(?P<name>[^\W\d][\w.]*)"
@@ -45,12 +41,6 @@ _IN_EQUATION = {
 }
 
 
-@cache
-def _words() -> dict[str, Any]:
-    words: dict[str, Any] = json.loads(Path(__file__).with_name("words.json").read_text(encoding="utf-8"))
-    return {**words, "sections": frozenset(words["sections"]), "keywords": frozenset(words["keywords"])}
-
-
 class DeckLexer(Lexer):
     """Lexer of riser and pipeline analysis decks in keyword text."""
 
@@ -60,110 +50,91 @@ class DeckLexer(Lexer):
     alias_filenames: ClassVar[list[str]] = ["*.das"]
     mimetypes: ClassVar[list[str]] = ["text/x-mudline"]
 
-    def get_tokens_unprocessed(self, text: str) -> Iterator[Found]:
-        """Yield the tokens of a text, line by line: offset, kind and text."""
-        section = ""
-        block: dict[str, Any] = {}
-        for match in _LINE.finditer(text):
-            line, at = match[0], match.start()
-            body = line.lstrip(" \t")
-            if body.startswith("$"):
-                section, block = _canonical(body), {}
-                known = section in _words()["sections"]
-                yield from _whole(at, line, Generic.Heading if known else Generic.Subheading)
-            elif body.startswith("*"):
-                keyword = _canonical(body)
-                block = _words()["read"].get(keyword, {})
-                block = block if section in block.get("sections", ()) else {}
-                yield from _whole(at, line, Keyword if keyword in _words()["keywords"] else Keyword.Pseudo)
-            elif _is_comment(line, block):
-                yield from _whole(at, line, Comment.Single)
-            elif line:
-                yield from _fields(at, line, block)
+    def get_tokens_unprocessed(self, text: str) -> Iterator[tuple[int, _TokenType, str]]:
+        """Yield the tokens of a text in order: offset, kind and text."""
+        done = 0
+        for (start, end), kind in _tokens(text):
+            yield from _between(text, done, start)
+            yield start, kind, text[start:end]
+            done = end
+        yield from _between(text, done, len(text))
 
 
-def _canonical(line: str) -> str:
-    """Return the name on a line: upper case, single blanks, no blanks around a comma."""
-    return re.sub(r" *, *", ",", _NAME.sub(" ", line.strip(" \t\r\n")[1:].strip(" \t"))).upper()
+def _between(text: str, start: int, end: int) -> Iterator[tuple[int, _TokenType, str]]:
+    """Yield the blanks and the marks between other tokens."""
+    for match in _BETWEEN.finditer(text, start, end):
+        yield match.start(), Text.Whitespace if match[0].isspace() else Punctuation, match[0]
 
 
-def _is_comment(line: str, block: dict[str, Any]) -> bool:
-    """Return True if a line is a comment: `C` and no letter, or `C` and a letter if no setting of the keyword fits."""
-    if _UNDECIDED.match(line):
-        key = _KEY.match(line)
-        return key is None or _key(key[2]) not in block.get("settings", {})
-    return _COMMENT.match(line) is not None
+def _tokens(written: str) -> Iterator[Found]:
+    """Yield the tokens of a text, without blanks and punctuation."""
+    tree = parse(Source("", written))
+    text = tree.source.unified
+    for section in (tree.preamble, *tree.sections):
+        if section.head:
+            known = section.name in catalogue.SECTIONS
+            yield trimmed(text, *section.head.span), Generic.Heading if known else Generic.Subheading
+        yield from (found for leaf in section.leaves for found in _leaf(text, leaf, None))
+        for block in section.blocks:
+            known = block.name in catalogue.keywords()
+            yield trimmed(text, *block.head.span), Keyword if known else Keyword.Pseudo
+            declared = catalogue.block_class(section.name, block.name)
+            yield from (found for leaf in block.leaves for found in _leaf(text, leaf, declared))
 
 
-def _key(written: str) -> str:
-    return _NAME.sub(" ", written).upper()
+def _leaf(text: str, leaf: Leaf, declared: type[Block] | None) -> Iterator[Found]:
+    settings = _settings(declared) if declared else {}
+    undecided = leaf.kind is LeafKind.UNDECIDED and first_key(text, leaf.span) not in settings
+    if leaf.kind is LeafKind.COMMENT or undecided:
+        yield trimmed(text, *leaf.span), Comment.Single
+    elif leaf.kind is not LeafKind.BLANK:
+        for line in line_spans(text, leaf.span):
+            yield from _line(text, line, settings, slashes=declared is not None and declared.slashes)
 
 
-def _whole(at: int, line: str, kind: _TokenType) -> Iterator[Found]:
-    """Yield a line as a token of one kind, with separate tokens for the blanks around it."""
-    body = line.strip(" \t\r\n")
-    start = line.index(body)
-    yield from _blank(at, line[:start])
-    if body:
-        yield at + start, kind, body
-    yield from _blank(at + start + len(body), line[start + len(body) :])
-
-
-def _blank(at: int, text: str) -> Iterator[Found]:
-    if text:
-        yield at, Text.Whitespace, text
-
-
-def _fields(at: int, line: str, block: dict[str, Any]) -> Iterator[Found]:
-    """Yield the fields of a setting or a row."""
-    if _NUMBERS.fullmatch(line):
-        for piece in re.finditer(r"\s+|\S+", line):
-            yield at + piece.start(), Text.Whitespace if piece[0].isspace() else Number.Float, piece[0]
+def _line(text: str, line: Span, settings: dict[str, set[str]], *, slashes: bool) -> Iterator[Found]:
+    """Yield the tokens of a setting or a row."""
+    if blank_separated(text[slice(*line)]):
+        yield from ((Span(*word.span()), Number.Float) for word in _WORD.finditer(text, *line))
         return
-    here = 0
-    while here < len(line):
-        choices: list[str] = []
-        if key := _KEY.match(line, here):
-            yield from _blank(at + here, key[1])
-            known = _key(key[2]) in block.get("settings", {})
-            yield at + key.start(2), Name.Attribute if known else Name.Property, key[2]
-            yield from _blank(at + key.start(3), key[3])
-            here = key.end()
-            yield at + here - 1, Operator, "="
-            choices = block.get("settings", {}).get(_key(key[2]), [])
-        slashed = _SLASHED.match(line, here) if block.get("slashes") else None
-        field = slashed or _FIELD.match(line, here)
-        if field:
-            yield from _field(at + here, field[0], choices)
-            here = field.end()
-        if here < len(line):
-            yield at + here, Punctuation if line[here] == "," else Text.Whitespace, line[here]
-            here += 1
+    for group in read_line(text, line, slashes=slashes).groups:
+        if group.key:
+            equals = text.index("=", group.span.start)
+            known = group.key in settings
+            yield trimmed(text, group.span.start, equals), Name.Attribute if known else Name.Property
+            yield Span(equals, equals + 1), Operator
+        for field in group.fields:
+            if field.text.startswith("=["):
+                yield from _equation(text, field.span)
+            elif field.text:
+                yield field.span, _kind(field, settings.get(group.key, set()))
 
 
-def _field(at: int, written: str, choices: list[str]) -> Iterator[Found]:
-    """Yield a field with the blanks around it."""
-    text = written.strip(" \t\r")
-    start = written.index(text)
-    yield from _blank(at, written[:start])
-    at += start
-    if text.startswith("=["):
-        yield from _equation(at, text)
-    elif _NUMBER.fullmatch(text):
-        yield at, Number.Float, text
-    elif text.upper() in choices:
-        yield at, Name.Constant, text
-    elif text.startswith("{"):
-        yield at, Name.Label, text
-    elif text:
-        yield at, String.Double if text.startswith('"') else String, text
-    yield from _blank(at + len(text), written[start + len(text) :])
+def _kind(field: Field, choices: set[str]) -> _TokenType:
+    if spells_number(field.text):
+        return Number.Float
+    if field.text.upper() in choices:
+        return Name.Constant
+    return Name.Label if field.text[0] == "{" else String.Double if field.text[0] == '"' else String
 
 
-def _equation(at: int, text: str) -> Iterator[Found]:
-    yield at, Operator, "=["
-    closed = text.endswith("]")
-    for match in _EQUATION.finditer(text, 2, len(text) - closed):
-        yield at + match.start(), _IN_EQUATION[str(match.lastgroup)], match[0]
+def _equation(text: str, span: Span) -> Iterator[Found]:
+    start, end = span
+    yield Span(start, start + 2), Operator
+    closed = text[end - 1] == "]"
+    for match in _EQUATION.finditer(text, start + 2, end - closed):
+        if not match[0].isspace():
+            yield Span(*match.span()), _IN_EQUATION[str(match.lastgroup)]
     if closed:
-        yield at + len(text) - 1, Operator, "]"
+        yield Span(end - 1, end), Operator
+
+
+@cache
+def _settings(declared: type[Block]) -> dict[str, set[str]]:
+    """Return the keys of a keyword, with the words that each may have."""
+    choices: dict[str, set[str]] = {}
+    for schema in schemas_of(declared):
+        for slot in schema.slots:
+            if slot.key:
+                choices.setdefault(slot.key, set()).update(slot.choices)
+    return choices

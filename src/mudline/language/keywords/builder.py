@@ -15,13 +15,13 @@ from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN014
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords.grammar import ROW, Content, Node
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Path, Record, record_schema
-from mudline.language.keywords.numbers import cut_number
 from mudline.language.keywords.parsed import Item, ParsedRecord, Places, TableBuilder
 from mudline.language.keywords.table import Table, fewest_fields, row_format
 from mudline.language.keywords.text import (
     MIXED_FIELDS,
     UnreadableError,
     Value,
+    cut_number,
     decimal_comma,
     hint,
     instead,
@@ -114,6 +114,7 @@ class Builder:
         if child.last is None:
             return
         before.append(child)
+        built.inner.append(child)
         built.values.setdefault(slot.json, []).append(child.values)
         built.items.append(Item(slot.order, child.first, 1))
         built.reach(child.first)

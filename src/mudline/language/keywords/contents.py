@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import chain
-from typing import Literal, NamedTuple, TypeGuard, cast, get_args
+from typing import Literal, TypeGuard, cast, get_args
 
 import numpy as np
 from pydantic import Field
@@ -66,12 +66,6 @@ class OpenBlock(Block):
 
 
 @cache
-def can_keep(part: type[Part]) -> bool:
-    """Return True if a part, or an inner part, can keep lines or hold an unknown value."""
-    return any(map(_is_open, fields_of(part))) or keeps_lines(part)
-
-
-@cache
 def keeps_lines(part: type[Part]) -> bool:
     """Return True if a part, or an inner part, can keep lines."""
     return "unread" in part.model_fields or any(_holds_keepers(slot) for slot in record_schema(part).slots)
@@ -87,7 +81,7 @@ def _holds_keepers(slot: FieldSpec) -> bool:
 
 def kept_lines(part: Part) -> list[str]:
     """Return the lines that a part and its inner parts keep."""
-    return [line for _, line in kept_places(part)] if keeps_lines(type(part)) else []
+    return [line for _, line in kept_places(part)]
 
 
 def kept_places(part: Part) -> Iterator[tuple[Path, str]]:
@@ -102,7 +96,7 @@ def kept_places(part: Part) -> Iterator[tuple[Path, str]]:
 
 def is_read(part: Part) -> bool:
     """Return True if a part keeps no line and holds no unknown value."""
-    if not can_keep(type(part)):
+    if not keeps_lines(type(part)):
         return True
     values = ((slot, value) for _, slot, value in part.walk(_is_open))
     known = all(value in slot.choices and value not in (slot.about.opaque or ()) for slot, value in values)
@@ -129,7 +123,7 @@ class _Opener:
 def openers(block: type[Block]) -> dict[str, _Opener]:
     """Return the settings of a block that may announce kept lines, by their keys."""
     by_key: dict[str, _Opener] = {}
-    if can_keep(block):
+    if keeps_lines(block):
         _add_openers(block, (), (), by_key)
     return by_key
 
@@ -201,41 +195,13 @@ def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
     return frozenset(kind for slot in fields_of(part) if (kind := getattr(slot.about, role)) is not None)
 
 
-def may_name(part: type[Part], what: Names) -> bool:
-    """Return True if a part has fields that refer to objects of a kind."""
-    return what in kinds_of(part, "names")
+def holds_name(slot: FieldSpec) -> bool:
+    """Return True if a field holds a name; numbers and labels of nodes and elements are not names."""
+    return any(True for _ in roles_of(slot))
 
 
-class NameGiven(NamedTuple):
-    """Name in a part: kind of the object, role of the field, name as written, path."""
-
-    kind: Names
-    role: Role
-    name: str
-    path: Path
-
-
-@cache
-def gives_names(part: type[Part]) -> bool:
-    """Return True if a part, or an inner part, has fields for names."""
-    return any(map(_holds_name, fields_of(part)))
-
-
-def all_names_given(part: Part) -> list[NameGiven]:
-    """Return every textual name in a part; numbers and labels of nodes and elements are left out."""
-    return [
-        NameGiven(kind, role, name, path)
-        for path, slot, name in part.walk(_holds_name)
-        if is_name(name)
-        for role, kind in _roles_of(slot)
-    ]
-
-
-def _holds_name(slot: FieldSpec) -> bool:
-    return any(True for _ in _roles_of(slot))
-
-
-def _roles_of(slot: FieldSpec) -> Iterator[tuple[Role, Names]]:
+def roles_of(slot: FieldSpec) -> Iterator[tuple[Role, Names]]:
+    """Yield the roles of the name in a field, with the kind of the object."""
     for role in ROLES:
         kind = getattr(slot.about, role)
         if kind is not None and kind not in (Names.NODE, Names.ELEMENT):
@@ -324,12 +290,6 @@ def range_faults(part: Part) -> Iterator[tuple[Path, str]]:
                     yield (*path, row, index), range_fault(float(values[row]), column)
         elif isinstance(value, float | int) and (value < slot.span[0] or value > slot.span[1]):
             yield path, range_fault(value, slot)
-
-
-@cache
-def has_ranges(part: type[Part]) -> bool:
-    """Return True if a field of a part or of its inner parts has a range."""
-    return any(map(_is_ranged, fields_of(part)))
 
 
 def _is_ranged(slot: FieldSpec) -> bool:

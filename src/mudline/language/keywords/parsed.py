@@ -6,7 +6,6 @@ from array import array
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain
 from operator import attrgetter, itemgetter
 from typing import Any, NamedTuple
 
@@ -58,12 +57,15 @@ class ParsedRecord:
 
     A record is `unsure` if some of its lines or settings could not be used: values that seem to be missing may be
     there. It is `unchosen` if the value that chooses its kind of rows is unknown.
+
+    `items` and `inner`, the `children` of all fields, are in the order of the text.
     """
 
     part: type[Record]
     path: Path = ()
     values: dict[str, Any] = field(default_factory=dict)
     children: dict[str, list[ParsedRecord]] = field(default_factory=dict)
+    inner: list[ParsedRecord] = field(default_factory=list)
     tables: dict[str, TableBuilder] = field(default_factory=dict)
     items: list[Item] = field(default_factory=list)
     sticky: object = None
@@ -88,12 +90,12 @@ class ParsedRecord:
 def lose(built: ParsedRecord, positions: Sequence[int]) -> None:
     """Mark a record, and the inner records at the positions, as having lines that could not be used."""
     built.unsure = True
-    inner = sorted(chain.from_iterable(built.children.values()), key=lambda child: child.first)
-    firsts = [child.first for child in inner]
+    inner, first = built.inner, attrgetter("first")
     of_child: dict[int, list[int]] = {}
     for position in positions:
-        of_child.setdefault(bisect_right(firsts, position) - 1, []).append(position)
-    for child in inner[bisect_right(firsts, min(positions)) :]:  # a line above the child may be the one with its name
+        of_child.setdefault(bisect_right(inner, position, key=first) - 1, []).append(position)
+    # a line above a child may be the one with its name
+    for child in inner[bisect_right(inner, min(positions), key=first) :]:
         for slot in record_schema(child.part).slots[:1]:
             if slot.key:
                 child.values.setdefault(slot.json, UNKNOWN)
@@ -240,10 +242,6 @@ class Between(NamedTuple):
     kept: bool = False
 
 
-_Held = tuple[int, Between]
-"""Index of the item that follows a line in its record, and the line."""
-
-
 def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRecord) -> list[str]:
     """Add each comment to the innermost record with lines on both sides of it, before the item that follows.
 
@@ -251,34 +249,50 @@ def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRe
     kept line there. Returns the texts of the comments behind the last line of the block: they belong to the next block.
     """
     trailing: list[str] = []
-    whole = _Places(block)
-    held: dict[int, tuple[ParsedRecord, list[_Held]]] = {}
+    held: dict[int, tuple[ParsedRecord, list[Between]]] = {}
     for line in sorted(kept):
-        path = whole.path(line.position, within=False)
-        while len(path) > 1 and "unread" not in path[-1].record.part.model_fields:
+        path = _path(block, line.position, within=False)
+        while len(path) > 1 and "unread" not in path[-1].part.model_fields:
             path.pop()
-        _hold(held, path[-1], line)
-        for places in path:
-            places.record.reach(line.position)
+        held.setdefault(id(path[-1]), (path[-1], []))[1].append(line)
+        for record in path:
+            record.reach(line.position)
     for comment in comments:
         if block.last is not None and comment.position < block.last:
-            _hold(held, whole.path(comment.position, within=True)[-1], comment)
+            owner = _path(block, comment.position, within=True)[-1]
+            held.setdefault(id(owner), (owner, []))[1].append(comment)
         else:
             trailing.append(comment.text)
-    for record, lines in held.values():  # settings may be written in another order than read
-        _write(record, sorted(lines))
+    for record, lines in held.values():
+        _write(record, lines)
     return trailing
 
 
-def _hold(held: dict[int, tuple[ParsedRecord, list[_Held]]], places: _Places, line: Between) -> None:
-    record = places.record
-    held.setdefault(id(record), (record, []))[1].append((places.index(line.position), line))
+def _path(block: ParsedRecord, position: int, *, within: bool) -> list[ParsedRecord]:
+    """Return a block and its inner records that begin before a position and, if `within`, end behind it."""
+    path = [block]
+    while True:
+        inner = path[-1].inner
+        at = bisect_left(inner, position, key=attrgetter("first")) - 1
+        if at < 0 or (within and (inner[at].last or 0) <= position):
+            return path
+        path.append(inner[at])
 
 
-def _write(record: ParsedRecord, lines: list[_Held]) -> None:
-    """Add the lines of a record to its values: comments, then all lines from the first kept one on."""
+def _write(record: ParsedRecord, lines: list[Between]) -> None:
+    """Add lines to the values of a record, each before the item that follows it in the text.
+
+    Settings may be written in another order than read. Comments come first, then all lines from the first kept one on.
+    """
+    indices: dict[Item, int] = {}
+    count = 0
+    for item in sorted(record.items):
+        indices[item] = count
+        count += item.size
+    following = (bisect_right(record.items, line.position, key=attrgetter("position")) for line in lines)
+    placed = (indices[record.items[at]] if at < len(record.items) else count for at in following)
     kept_before = -1
-    for before, line in lines:
+    for before, line in sorted(zip(placed, lines, strict=True)):
         kept_before = before if line.kept else kept_before
         if kept_before == before:
             texts = [each.removesuffix("\r") for each in line.text.removesuffix("\n").split("\n")]
@@ -286,42 +300,6 @@ def _write(record: ParsedRecord, lines: list[_Held]) -> None:
             record.values.setdefault("unread", []).extend({"before": before, "text": text} for text in texts)
         else:
             record.values.setdefault("comments", []).append({"before": before, "text": line.text})
-
-
-class _Places:
-    """Positions for comments and kept lines in a record, in tables that are computed once for all lines."""
-
-    def __init__(self, record: ParsedRecord) -> None:
-        self.record = record
-        self.within = sorted(
-            (child for children in record.children.values() for child in children if child.last is not None),
-            key=attrgetter("first"),
-        )
-        self.starts = [child.first for child in self.within]
-        self.inner: dict[int, _Places] = {}
-        self.items = sorted(record.items, key=attrgetter("position"))
-        self.positions = [item.position for item in self.items]
-        self.count = 0
-        self.before: dict[tuple[int, int], int] = {}
-        for item in sorted(record.items, key=attrgetter("order", "position")):
-            self.before.setdefault((item.order, item.position), self.count)
-            self.count += item.size
-
-    def path(self, position: int, *, within: bool) -> list[_Places]:
-        """Return this record and the inner ones that begin before a position and, if `within`, end behind it."""
-        at = bisect_left(self.starts, position) - 1
-        if at < 0 or (within and (self.within[at].last or 0) <= position):
-            return [self]
-        if at not in self.inner:
-            self.inner[at] = _Places(self.within[at])
-        return [self, *self.inner[at].path(position, within=within)]
-
-    def index(self, position: int) -> int:
-        """Return the index, in order of writing, of the first item behind a position, else the number of items."""
-        at = bisect_right(self.positions, position)
-        if at == len(self.items):
-            return self.count
-        return self.before[self.items[at].order, self.items[at].position]
 
 
 _OF_OTHER_FORMS = frozenset({SYN001, SYN002, SYN003, SYN004, SYN005})

@@ -25,6 +25,8 @@ _ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*')
 """Row whose only brackets are those of equations without commas, brackets, strings or labels inside."""
 PIECE = 256 * 1024
 """Number of characters that are read at a time: their arrays stay in the fast memory of a processor."""
+_FEW = 1024
+"""Number of characters of lines that are read field by field, if not all are numbers."""
 _KEPT_BACK = 1 << 22
 _IN_NUMBERS = b"0123456789+-.eE \t\r"
 _D_TO_E = bytes.maketrans(b"dD", b"EE")
@@ -71,11 +73,14 @@ def read_rows(text: str, span: Span, columns: int) -> RawRows:
 
 
 def _piece(lines: str, columns: int) -> RawRows:
-    """Return the rows of lines, together if they are all numbers."""
+    """Return the rows of lines, as many at a time as are all numbers; few lines with others are read field by field."""
     values = read_numbers(lines, columns) if len(lines) <= 2 * PIECE else None  # longer pieces are a single line
-    if values is None:
+    if values is not None:
+        return RawRows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
+    middle = lines.find("\n", len(lines) // 2) if len(lines) > _FEW else -1
+    if middle < 0:
         return read_rows_slow(lines, Span(0, len(lines)), columns)
-    return RawRows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
+    return stacked([_piece(lines[:middle], columns), _piece(lines[middle + 1 :], columns)])
 
 
 def read_numbers(lines: str, columns: int) -> NDArray[np.float64] | None:

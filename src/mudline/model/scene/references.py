@@ -18,7 +18,7 @@ from mudline.language.deck.model import Deck, Opaque, raw_lines
 from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import idents_given, is_read, may_name, names_given
+from mudline.language.keywords.contents import idents_given, is_read, kinds_of, names_given
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import shown
@@ -156,7 +156,7 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
 @cache
 def _names_idents(block: type[Block]) -> bool:
     elsewhere = block.facts.defines or block.model_fields["keyword"].default == KEYWORD
-    return not elsewhere and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
+    return not elsewhere and not kinds_of(block, "names").isdisjoint((Names.NODE, Names.ELEMENT))
 
 
 def check_chains(context: Context) -> None:

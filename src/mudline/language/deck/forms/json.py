@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from array import array
 from collections.abc import Iterator
 from functools import cached_property
 from json import JSONDecoder
@@ -143,8 +142,7 @@ class JsonPlaces:
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self.keys: dict[int, tuple[dict[str, int], Iterator[tuple[str, int]]]] = {}
-        self.items: dict[int, tuple[array[int], Iterator[int]]] = {}
+        self.found: dict[int, tuple[dict[str | int, int], Iterator[tuple[str | int, int]]]] = {}
         self.ends: dict[int, int] = {}
 
     @cached_property
@@ -163,56 +161,30 @@ class JsonPlaces:
             self.ends[at] = _decode(self.text, at)[1]
         return Range(*self._source.position(at), *self._source.position(self.ends[at]))
 
-    def _below(self, at: int, part: str | int) -> int | None:
+    def _below(self, at: int, wanted: str | int) -> int | None:
         """Return the index at which a value in an object or a list begins."""
-        if self.text[at] == "{" and isinstance(part, str):
-            return self._value(at, part)
-        if self.text[at] == "[" and isinstance(part, int):
-            return self._item(at, part)
-        return None
-
-    def _value(self, at: int, wanted: str) -> int | None:
-        if at not in self.keys:
-            self.keys[at] = {}, self._members(at)
-        known, further = self.keys[at]
+        if at not in self.found:
+            self.found[at] = {}, self._values(at)
+        known, further = self.found[at]
         while wanted not in known:
-            key, start = next(further, ("", -1))
-            if start < 0:
+            if (value := next(further, None)) is None:
                 return None
-            known[key] = start
+            known[value[0]] = value[1]
         return known[wanted]
 
-    def _item(self, at: int, wanted: int) -> int | None:
-        if at not in self.items:
-            self.items[at] = array("q"), self._starts(at)
-        known, further = self.items[at]
-        while len(known) <= wanted:
-            start = next(further, -1)
-            if start < 0:
-                return None
-            known.append(start)
-        return known[wanted]
-
-    def _members(self, at: int) -> Iterator[tuple[str, int]]:
-        """Keys of an object, and where their values begin."""
-        at = self._skipped(at + 1)
-        while self.text[at] != "}":
-            key, at = _decode(self.text, at)
-            at = self._skipped(self._skipped(at) + 1)
+    def _values(self, at: int) -> Iterator[tuple[str | int, int]]:
+        """Yield the keys of an object, or the indices of a list, and where their values begin."""
+        end = {"{": "}", "[": "]"}.get(self.text[at])
+        at, index = self._skipped(at + 1) if end else at, 0
+        while end and self.text[at] != end:
+            key: str | int = index
+            if end == "}":
+                key, at = _decode(self.text, at)
+                at = self._skipped(self._skipped(at) + 1)
             yield key, at
-            at = self._next(at)
-
-    def _starts(self, at: int) -> Iterator[int]:
-        """Return the indices at which the values of a list begin."""
-        at = self._skipped(at + 1)
-        while self.text[at] != "]":
-            yield at
-            at = self._next(at)
-
-    def _next(self, at: int) -> int:
-        """Behind a value and its comma."""
-        at = self._skipped(_decode(self.text, at)[1])
-        return self._skipped(at + 1) if self.text[at] == "," else at
+            index += 1
+            at = self._skipped(_decode(self.text, at)[1])
+            at = self._skipped(at + 1) if self.text[at] == "," else at
 
     def _skipped(self, at: int) -> int:
         while self.text[at] in _BLANKS:

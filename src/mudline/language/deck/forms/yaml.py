@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from bisect import bisect_right
 from typing import Any, Protocol, cast
 
 import yaml
@@ -17,6 +16,7 @@ from mudline.language.diagnostics import DeckError
 from mudline.language.keywords.faults import DocumentPath
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import joined
+from mudline.language.syntax.source import Source
 
 try:
     from yaml import CSafeDumper as _SafeDumper
@@ -232,32 +232,17 @@ class Mark(Protocol):
     index: int
 
 
-_LINE_END = re.compile(r"\r\n|\r|\n")
-
-
-class _Lines:
-    """The lines of a text, which end with LF, CRLF or CR alone: the parser counts by other ends, too."""
-
-    def __init__(self, text: str) -> None:
-        self.starts = [0, *(found.end() for found in _LINE_END.finditer(text))]
-
-    def place(self, mark: Mark) -> tuple[int, int]:
-        """Return line and column of a mark, from 1."""
-        line = bisect_right(self.starts, mark.index)
-        return line, mark.index - self.starts[line - 1] + 1
-
-
 def mark_range(text: str, mark: Mark | None) -> Range:
     """Line and column of a mark; none is at the start of the text."""
     if mark is None:
         return START
-    place = _Lines(text).place(mark)
+    place = Source("", text).position(mark.index)  # the parser counts by other line ends, too
     return Range(*place, *place)
 
 
 def locator(text: str, root: yaml.Node | None) -> Locate:
     """A function that finds the place of a path, or of the nearest thing around it."""
-    lines = _Lines(text)
+    source = Source("", text)
     known: dict[int, dict[str, yaml.Node]] = {}
     rows: dict[int, list[int]] = {}
 
@@ -278,13 +263,13 @@ def locator(text: str, root: yaml.Node | None) -> Locate:
             below = inner(node, part)
             if below is None:
                 if isinstance(node, yaml.ScalarNode) and node.style == "|" and isinstance(part, int):
-                    first = lines.place(node.start_mark)[0] + 1
+                    first = source.position(node.start_mark.index)[0] + 1
                     rows[id(node)] = rows.get(id(node)) or _row_lines(node, first)
                     number = next(iter(rows[id(node)][part : part + 1]), first)
                     return Range(number, 1, number, 1)
                 break
             node = below
-        return Range(*lines.place(node.start_mark), *lines.place(node.end_mark))
+        return Range(*source.position(node.start_mark.index), *source.position(node.end_mark.index))
 
     return locate
 

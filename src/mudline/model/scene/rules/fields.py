@@ -10,10 +10,9 @@ import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.language.codes.references import REF015
-from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_have_no_length
-from mudline.language.keywords.contents import has_ranges, is_read, range_faults
+from mudline.language.keywords.contents import is_read, range_faults
 from mudline.language.rules import rule
 from mudline.model.scene.deck_values import missing_files, not_found
 from mudline.model.scene.references import THINGS, undefined
@@ -50,10 +49,9 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 6:11
     """
     for where, _, block in scene.deck.every_block():
-        if type(block) is not Opaque and has_ranges(type(block)):
-            for path, message in range_faults(block):
-                if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
-                    yield Problem(SBD010, message, where=where._replace(path=path))
+        for path, message in range_faults(block):
+            if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
+                yield Problem(SBD010, message, where=where._replace(path=path))
 
 
 @rule(REF015, blocks=True)
