@@ -11,7 +11,7 @@ from mudline.language.codes.references import REF007
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import DEFINING, NoValueError, Parameters, Value, bare, name_key
 from mudline.language.diagnostics import Blocks, Problem, Where
-from mudline.language.keywords.model import FieldSpec, Part, record_schema
+from mudline.language.keywords.model import FieldSpec, Part, Path, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import UNKNOWN
@@ -94,7 +94,8 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
     for i, section in enumerate(copies):
         evaluator.blocks = Blocks.ALWAYS if section.name == "MODEL" else Blocks.NEVER
         for j, block in enumerate(section.blocks if section.name != DEFINING else ()):
-            section.blocks[j] = evaluator.part(block, Where(i, j))
+            evaluator.where = Where(i, j)
+            section.blocks[j] = evaluator.part(block, ())
     noticed = parameters.problems
     if evaluator.lacks_parameter:
         noticed = [replace(problem, blocks=Blocks.ALWAYS) for problem in noticed]
@@ -108,8 +109,9 @@ class _Evaluator:
         self.labels: LabelNumbers = {}
         self.lacks_parameter = False
         self.blocks = Blocks.ALWAYS
+        self.where = Where(0)
 
-    def part(self, part: Any, where: Where) -> Any:
+    def part(self, part: Any, path: Path) -> Any:
         """Return a part without equations; the same object if it has none."""
         changed: dict[str, object] = {}
         kind: type[Part] = type(part)
@@ -117,22 +119,22 @@ class _Evaluator:
             value = part.__dict__[slot.name]  # faster than `getattr` of a model
             if type(value) in _PLAIN:
                 continue
-            new = self._value(value, slot, where.inside(slot.order if slot.of_list else slot.json))
+            new = self._value(value, slot, (*path, slot.order if slot.of_list else slot.json))
             if new is not value:
                 changed[slot.name] = new
         return part.model_copy(update=changed) if changed else part
 
-    def _value(self, value: object, slot: FieldSpec, where: Where) -> object:
+    def _value(self, value: object, slot: FieldSpec, path: Path) -> object:
         if isinstance(value, Equation):
-            return self._number(value, slot.kind or Kind.REAL, slot.label, where)
+            return self._number(value, slot.kind or Kind.REAL, slot.label, path)
         if isinstance(value, Label):
             return self._labelled(value, slot)
         if isinstance(value, Table):
-            return self._table(value, slot, where) if value.equations or (self.labels and value.words) else value
+            return self._table(value, slot, path) if value.equations or (self.labels and value.words) else value
         if isinstance(value, Part):
-            return self.part(value, where)
-        if isinstance(value, list) and value and isinstance(value[0], Part):
-            new = [self.part(item, where.inside(i)) for i, item in enumerate(value)]
+            return self.part(value, path)
+        if isinstance(value, list) and isinstance(next(iter(value), None), Part):
+            new = [self.part(item, (*path, i)) for i, item in enumerate(value)]
             return new if any(a is not b for a, b in zip(new, value, strict=True)) else value
         if self.labels and isinstance(value, list) and any(isinstance(item, Label) for item in value):
             return [self._labelled(item, slot) for item in value]
@@ -144,8 +146,9 @@ class _Evaluator:
             return value
         return self.labels.get((slot.about.names or slot.about.defines, name_key(value)), value)
 
-    def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value:
+    def _number(self, equation: Equation, kind: Kind, label: str, path: Path) -> Value:
         """Return the value of an equation."""
+        where = self.where.inside(*path)
         whole = kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
         nothing: Value = UNKNOWN
         try:
@@ -170,14 +173,14 @@ class _Evaluator:
         self.problems.append(Problem(SYN002, message, where=where, blocks=self.blocks))
         return nothing
 
-    def _table(self, table: Table, slot: FieldSpec, where: Where) -> Table:
+    def _table(self, table: Table, slot: FieldSpec, path: Path) -> Table:
         columns = table.columns
         values = table.values.copy()
         words = dict(table.words)
         for (row, column), word in table.words.items():
             if isinstance(word, Equation):
-                place = where.inside(row, column)
-                values[row, column] = self._number(word, columns[column].kind, columns[column].label, place)
+                kind, label = columns[column].kind, columns[column].label
+                values[row, column] = self._number(word, kind, label, (*path, row, column))
                 del words[row, column]
             elif isinstance(word, Label) and slot.row:
                 number = self._labelled(word, record_schema(slot.row).columns[column])

@@ -25,7 +25,7 @@ from mudline.language.diagnostics import (
     Severity,
     Where,
 )
-from mudline.language.keywords.contents import Role, holds_name, is_name, kept_lines, roles_of
+from mudline.language.keywords.contents import Role, every_name_given, kept_lines
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.values import Names, Text
@@ -293,9 +293,7 @@ class Deck:
         return [
             NamedPlace(kind, role, name, where._replace(path=path))
             for where, _, block in self.every_block()
-            for path, slot, name in block.walk(holds_name)
-            if is_name(name)
-            for role, kind in roles_of(slot)
+            for kind, role, name, path in every_name_given(block)
         ]
 
     def keywords(self, section: str = "MODEL") -> set[str]:

@@ -195,17 +195,26 @@ def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
     return frozenset(kind for slot in fields_of(part) if (kind := getattr(slot.about, role)) is not None)
 
 
-def holds_name(slot: FieldSpec) -> bool:
-    """Return True if a field holds a name; numbers and labels of nodes and elements are not names."""
-    return any(True for _ in roles_of(slot))
+def every_name_given(part: Part) -> list[tuple[Names, Role, str, Path]]:
+    """Return every name in a part: kind of the object, role of the field, name as written, path.
+
+    Numbers and labels of nodes and elements are not names.
+    """
+    return [
+        (kind, role, name, path)
+        for path, slot, name in part.walk(_holds_name)
+        if is_name(name)
+        for role, kind in _roles_of(slot)
+    ]
 
 
-def roles_of(slot: FieldSpec) -> Iterator[tuple[Role, Names]]:
-    """Yield the roles of the name in a field, with the kind of the object."""
-    for role in ROLES:
-        kind = getattr(slot.about, role)
-        if kind is not None and kind not in (Names.NODE, Names.ELEMENT):
-            yield role, kind
+def _holds_name(slot: FieldSpec) -> bool:
+    return bool(_roles_of(slot))
+
+
+def _roles_of(slot: FieldSpec) -> list[tuple[Role, Names]]:
+    kinds = ((role, getattr(slot.about, role)) for role in ROLES)
+    return [(role, kind) for role, kind in kinds if kind not in (None, Names.NODE, Names.ELEMENT)]
 
 
 def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[Path, str]]:
