@@ -26,7 +26,7 @@ ROOT = Path(mudline.__file__).parent
 ASKING = frozenset(
     {
         *("blocks", "possible_definition", "misplaced", "missing", "report_missing", "has_unread_line_after"),
-        *("misread", "report_label"),
+        *("misread", "report_label", "rule_of_extension"),
         *("get", "add", "setdefault", "written"),
     }
 )
@@ -46,6 +46,7 @@ EXCEPTIONS = {
     "model/scene/weights.py": "what a deck gives to the weight of a line, and what of it is left out",
     "tools/reporting/content.py": "the title of a deck is that of its page",
     "tools/reporting/inputs.py": "the blocks that a checker asks for, in their order",
+    "model/scene/curves.py": "the curves that elements on the seabed follow, by name and by set",
     "model/scene/sections.py": "curves of which it takes a slope",
     "model/scene/rules/extensions.py": "names the laws that it refuses beside a soil",
     "model/scene/rules/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
@@ -67,7 +68,7 @@ def _named(tree: ast.AST) -> Iterator[tuple[ast.Constant, ast.AST]]:
 
 def _asks(named: ast.Constant, outer: ast.AST) -> bool:
     match outer:
-        case ast.Call(func=ast.Attribute(attr=called)):
+        case ast.Call(func=ast.Attribute(attr=called) | ast.Name(id=called)):
             return called in ASKING
         case ast.Subscript(slice=index):
             return index is named
