@@ -78,5 +78,5 @@ def test_points_of_embedment_under_a_set_that_could_not_be_read_hold_for_nothing
     text = "$MODEL\n*ELASTIC SURFACE\n 1\n*EMBEDMENT\n SET=\n 0, 0\n 1, 1\n"
     scene = scene_of(text)
     assert scene.curves == {}
-    assert not scene.laws.curves[0].named
+    assert not scene.laws.curves[0].name
     assert scene.problems == []

@@ -137,7 +137,7 @@ def scene_corrections(context: LintContext) -> Iterator[Correction]:
     if text is None:
         return
     sets = {key: one.name for key, one in scene.set_table.named.items() if key != ALL}
-    curves = {folded(one.name): one.name for one in scene.laws.curves if one.named and not one.embedment}
+    curves = {folded(one.name): one.name for one in scene.laws.curves if one.name and not one.embedment}
     used = {where for where, _ in _used_names(context.deck, Names.CURVE)}
     nameless = [one for one in undefined_curve(scene) if one.where in used]
     lacking = [one for one in scene.noticed if one.lacks and one.code in (REF001, REF008)]

@@ -58,7 +58,7 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     idle: dict[str, list[SceneCurve]] = {}
     for curve in scene.laws.curves:
         name = folded(curve.name)
-        if curve.embedment or not curve.named or name in scene.referenced:
+        if curve.embedment or not curve.name or name in scene.referenced:
             continue
         if read_number(name) is not None:  # a STIFFNESS= may mean it, which SBD017 reports
             continue
@@ -151,7 +151,7 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
     known: set[tuple[bool, str]] = set()
     for curve in context.scene.laws.curves:
         key = (curve.embedment, folded(curve.name))
-        if key in known and curve.named:
+        if key in known and curve.name:
             what = "set {} already has a curve" if curve.embedment else "curve {} is already defined"
             what = what.format(shown(curve.name))
             message = f"{what}: the later one is used (inferred); keep one of them"
@@ -229,6 +229,6 @@ def curve_named_as_number(context: LintContext) -> Iterator[Problem]:
     Finds: 3:8
     """
     for curve in context.scene.laws.curves:
-        if not curve.embedment and curve.named and read_number(curve.name) is not None:
+        if not curve.embedment and curve.name and read_number(curve.name) is not None:
             message = "the name of this curve reads as a number, and STIFFNESS= takes the number: choose another name"
             yield Problem(SBD017, message, where=curve.title)

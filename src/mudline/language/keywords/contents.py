@@ -195,6 +195,12 @@ def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
     return frozenset(kind for slot in fields_of(part) if (kind := getattr(slot.about, role)) is not None)
 
 
+@cache
+def gives_names(part: type[Part]) -> bool:
+    """Return True if a part, or an inner part, has fields for names."""
+    return any(map(_holds_name, fields_of(part)))
+
+
 def every_name_given(part: Part) -> list[tuple[Names, Role, str, Path]]:
     """Return every name in a part: kind of the object, role of the field, name as written, path.
 

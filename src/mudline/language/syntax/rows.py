@@ -6,6 +6,8 @@ import math
 import re
 from array import array
 from collections.abc import Iterator, Sequence
+from itertools import starmap
+from operator import methodcaller
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +21,7 @@ from mudline.language.syntax.fields import Field, split
 NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
 """Number as decks write it."""
 _WORD = re.compile(r"[^ \t\r\n]+")
+_ROW = re.compile(r"^[ \t\r]*[^ \t\r\n][^\n]*", re.MULTILINE)
 GROUPED = re.compile(r'[\["{]')
 """Opening marks of an equation, a string or a label, in which a comma does not separate fields."""
 _ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*')
@@ -177,14 +180,8 @@ def _pieces(text: str, span: Span) -> Iterator[Span]:
 
 
 def line_spans(text: str, span: Span) -> Iterator[Span]:
-    """Yield the spans of the lines of a run without line ends; blank lines are not rows."""
-    start = span.start
-    while start < span.end:
-        stop = text.find("\n", start, span.end)
-        stop = span.end if stop < 0 else stop
-        if text[start:stop].strip(" \t\r"):
-            yield Span(start, stop)
-        start = stop + 1
+    """Return the spans of the lines of a run without line ends; blank lines are not rows."""
+    return starmap(Span, map(methodcaller("span"), _ROW.finditer(text, *span)))
 
 
 def row_fields(text: str, line: Span, columns: int) -> list[Field]:

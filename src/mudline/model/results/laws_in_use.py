@@ -122,7 +122,7 @@ def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
             followed.add(grant.curve)
     unnamed: list[SceneCurve] = []
     for number, curve in enumerate(laws.curves):
-        if number in followed or not curve.named:
+        if number in followed or not curve.name:
             continue
         if grants := by_curve.get(number):
             if not any(grant.set_.open for grant in grants):

@@ -86,7 +86,7 @@ def _curves(scene: Scene) -> list[dict[str, Any]]:
         rows.append(
             {
                 "name": entry.name,
-                "keyword": "EMBEDMENT" if entry.embedment else "SEABED STIFFNESS",
+                "keyword": entry.keyword,
                 "points": len(entry.points),
                 "ratios": None if curve is None else [float(curve.ratios[0]), float(curve.ratios[-1])],
                 "forces": None if curve is None else [float(curve.forces.min()), float(curve.forces.max())],

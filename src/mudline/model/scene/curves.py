@@ -64,6 +64,7 @@ class SceneCurve(NamedTuple):
     ends: continuation beyond its points.
     reach: abscissas between which it is known; a current profile ends at the surface of the sea.
     whole: all points could be read and fit together.
+    embedment: the curve is of `*EMBEDMENT`.
     curve: curve of the points that fit together, None if they do not form a curve.
     """
 
@@ -80,6 +81,7 @@ class SceneCurve(NamedTuple):
     ends: Literal["slope", "value", "none"]
     reach: tuple[float, float]
     whole: bool
+    embedment: bool
     curve: ForceCurve | None = None
 
     def point(self, index: int) -> Where:
@@ -92,19 +94,9 @@ class SceneCurve(NamedTuple):
         return self.curve is not None and self.whole
 
     @property
-    def named(self) -> bool:
-        """True if the name, or the set, could be read."""
-        return bool(self.name)
-
-    @property
     def of_seabed(self) -> bool:
         """True if elements on the seabed follow the curve."""
         return self.kind == OF_SEABED
-
-    @property
-    def embedment(self) -> bool:
-        """True if the curve is of `*EMBEDMENT`."""
-        return self.keyword == "EMBEDMENT"
 
 
 def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve], list[SceneCurve]]:
@@ -113,7 +105,7 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve], l
         [_made(context, curve) for where, block in context.blocks(keyword) for curve in _curves(block, block, where)]
         for keyword in ("SEABED STIFFNESS", "EMBEDMENT")
     )
-    if not all(curve.named for curve in named):
+    if not all(curve.name for curve in named):
         context.unread.add("SEABED STIFFNESS")
     others = [
         _made(context, curve)
@@ -253,4 +245,5 @@ def _curve(slot: FieldSpec, table: Table, keyword: str, name: str, places: tuple
         about.ends,
         (low, float(last) if about.ends == "none" else inf),
         len(rows) == len(both),
+        keyword == "EMBEDMENT",
     )

@@ -135,7 +135,7 @@ def _surfaces(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
 
 def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[SetLaw]:
     for index, curve in enumerate(laws.curves[first:], first):
-        set_ = sets.find(curve.name) if curve.named else None
+        set_ = sets.find(curve.name) if curve.name else None
         holder = set_ or _unknown(curve.name)
         yield SetLaw(LawKind.CURVE, holder, curve.where, "legacy", curve=index, unknown=not curve.usable)
 
@@ -154,7 +154,7 @@ def typed_blocks(context: Context) -> Iterator[tuple[Where, SeabedProperties, st
 
 
 def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneCurve]) -> Iterator[SetLaw]:
-    curves = {folded(curve.name): index for index, curve in enumerate(named) if curve.named}
+    curves = {folded(curve.name): index for index, curve in enumerate(named) if curve.name}
     for where, properties, type_ in typed_blocks(context):
         if known_name(properties.type_):
             laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))

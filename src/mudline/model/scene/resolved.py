@@ -256,7 +256,7 @@ class ResolvedDeck:
         held: dict[str, SceneCurve] = {}
         for entry in self.laws.curves:
             before = held.get(folded(entry.name))
-            if entry.named and (before is None or before.embedment or not entry.embedment):
+            if entry.name and (before is None or before.embedment or not entry.embedment):
                 held[folded(entry.name)] = entry
         return ByName("curve", ((entry.name, entry.curve) for entry in held.values() if entry.curve is not None))
 

@@ -285,7 +285,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 10:12
     """
     yield from undefined(scene.context, CURVES, REF002)
-    names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
+    names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.name and not curve.embedment}
     if names.keys() >= scene.referenced:
         return
     laws = scene.laws.set_laws
