@@ -23,17 +23,17 @@ if TYPE_CHECKING:
     from mudline.api import lint as lint
     from mudline.api import read as read
     from mudline.api import read_positions as read_positions
-    from mudline.commands import diff as diff
-    from mudline.commands import diff_matrix as diff_matrix
-    from mudline.commands import expand as expand
-    from mudline.commands import export as export
-    from mudline.commands import fix as fix
-    from mudline.commands import format as format  # noqa: A004 - the name of the command
-    from mudline.commands import migrate as migrate
-    from mudline.commands import report as report
-    from mudline.commands import show as show
-    from mudline.commands import study as study
-    from mudline.commands import validate as validate
+    from mudline.api.commands import diff as diff
+    from mudline.api.commands import diff_matrix as diff_matrix
+    from mudline.api.commands import expand as expand
+    from mudline.api.commands import export as export
+    from mudline.api.commands import fix as fix
+    from mudline.api.commands import format as format  # noqa: A004 - the name of the command
+    from mudline.api.commands import migrate as migrate
+    from mudline.api.commands import report as report
+    from mudline.api.commands import show as show
+    from mudline.api.commands import study as study
+    from mudline.api.commands import validate as validate
     from mudline.editing.backbone_block import backbone as backbone
     from mudline.language.diagnostics import DeckError as DeckError
     from mudline.language.diagnostics import Diagnostic as Diagnostic
@@ -52,7 +52,7 @@ _HOMES = {
     name: home
     for home, names in {
         "api": "Deck Scene contact_warnings from_json from_keyword from_yaml lint read read_positions",
-        "commands": "diff diff_matrix expand export fix format migrate report show study validate",
+        "api.commands": "diff diff_matrix expand export fix format migrate report show study validate",
         "editing.backbone_block": "backbone",
         "model.contact": "ContactModel ContactResult ContactState Plan PositionError",
         "model.curves": "CurveError ForceCurve",

@@ -16,6 +16,7 @@ import click
 import numpy as np
 
 from mudline.api import Deck, public
+from mudline.api.commands import diff, diff_matrix
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
@@ -24,7 +25,6 @@ from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.inputs import STDIN, GivenDeck, refuses_bad_decks
 from mudline.cli.streams import emit, notify, notify_diagnostics
 from mudline.cli.view import View
-from mudline.commands import diff, diff_matrix
 from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckStatus
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value

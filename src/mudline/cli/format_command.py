@@ -6,6 +6,7 @@ from collections import Counter
 
 import click
 
+from mudline.api.commands import formatted_file
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import deliver
@@ -13,7 +14,6 @@ from mudline.cli.inputs import GivenDecks, takes_decks
 from mudline.cli.many_files import each_deck
 from mudline.cli.streams import notify
 from mudline.cli.view import Progress, View
-from mudline.commands import formatted_file
 from mudline.editing.formatting.document import FormatError
 
 _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"

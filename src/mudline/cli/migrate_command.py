@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from mudline.api import Deck
+from mudline.api.commands import Migrated, migrated
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
@@ -15,7 +16,6 @@ from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, r
 from mudline.cli.many_files import each_deck
 from mudline.cli.streams import emit_deck, notify, write_bytes
 from mudline.cli.view import Progress, View
-from mudline.commands import Migrated, migrated
 from mudline.editing.migration.migrating import Verification
 from mudline.editing.migration.refusals import Continuations
 from mudline.language.deck.loading import load_bytes

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from mudline.api.commands import show
 from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.quantities import UnitNames, shown, unit_names
 from mudline.basics.short_repr import counted
@@ -20,7 +21,6 @@ from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.result_files import require_library, write_tables
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
-from mudline.commands import show
 from mudline.language.diagnostics import Coverage
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import SUBJECTS

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from mudline.api.commands import study
 from mudline.basics.files import suffix_of
 from mudline.basics.quantities import csv_lines
 from mudline.cli import DONE, options
@@ -18,7 +19,6 @@ from mudline.cli.options import ABOVE_ZERO
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View, tracked
-from mudline.commands import study
 from mudline.tools.touchdown_study.screen import TABLES, description, sentences
 from mudline.tools.touchdown_study.study import PARTS, Study
 

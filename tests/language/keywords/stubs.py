@@ -9,7 +9,7 @@ from pathlib import Path
 from mudline.language.keywords.values import Entry
 from tests.language.keywords.index import declared_entries
 
-KEYWORDS = Path("src/mudline/keywords.pyi")
+KEYWORDS = Path("src/mudline/keywords/__init__.pyi")
 TYPED = Path("src/mudline/language/deck/typed.pyi")
 
 _LIBRARY = "mudline.language.keywords.library"
