@@ -14,7 +14,7 @@ from tests.cli.runner import run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 LOOPS: dict[str, tuple[str, str, Callable[..., str], list[str]]] = {
-    "lint": ("checks.fixing", "_lint_one", lambda name, *_: name, ["--output-format", "json"]),
+    "lint": ("checks.fixing", "covered_findings", lambda _, name, *__: name, ["--output-format", "json"]),
     "validate": ("checks.verdict", "judge", lambda context: context.deck.file, ["--output-format", "json"]),
     "report": ("tools.reporting.pages", "report_on", lambda given, *_: given.name, ["--output-format", "json"]),
     "batch": (
