@@ -12,6 +12,7 @@ import pytest
 
 from mudline.__main__ import main
 from mudline.cli import view
+from mudline.cli.inputs import Input
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, Stream, assert_fits, run
 from tests.helpers.builders.decks import CLEAN, ILLEGAL
@@ -86,6 +87,24 @@ def test_total_counts_all(decks: str) -> None:
         "warnings": 2,
         "unreadable": 1,
     }
+
+
+def test_decks_are_told_when_they_are_judged(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What was told of the first deck is there when the second one is read, and nothing holds its findings."""
+    names = [place(ILLEGAL, "a.keyxm"), place(ILLEGAL, "b.keyxm")]
+    there: list[str] = []
+    stream = Stream("utf-8", terminal=False)
+    read = Input.read
+
+    def watched(file: Input) -> bytes:
+        there.append(stream.content().decode())
+        return read(file)
+
+    monkeypatch.setattr(Input, "read", watched)
+    with patch.object(sys, "stdout", stream):
+        main(["validate", *names, "--output-format", "json"])
+    assert there[0] == ""
+    assert "REF001" in there[1]
 
 
 # ---------------------------------------------------------------------------------------------------------------- bar

@@ -66,9 +66,10 @@ class Directive:
     scope: Hashable = _NOTHING
     reason: str = ""
 
-    def covers(self, code: str) -> bool:
-        """Return True if it names a code, or is for all of them."""
-        return any(code in word.codes for word in self.words) or (not self.words and code != STY010.code)
+    @property
+    def codes(self) -> set[str]:
+        """Codes that it names; "" stands for all but that of an unused comment."""
+        return {code for word in self.words for code in word.codes} if self.words else {""}
 
 
 @dataclass(eq=False)
@@ -100,16 +101,14 @@ class Suppressions:
 
     def hiding(self, problem: Problem) -> Directive | None:
         """Return the comment that hides a problem; a comment without codes does not hide that it is unused."""
-        code = problem.code.code
-        near = (each for scope in self._scopes(problem) for each in self._by_scope.get(scope, ()))
-        return next((each for each in near if each.covers(code)), None)
+        codes = [problem.code.code] if problem.code is STY010 else [problem.code.code, ""]
+        keys = ((scope, code) for scope in self._scopes(problem) for code in codes)
+        return min((self._first[key] for key in keys if key in self._first), key=lambda each: each.leaf, default=None)
 
     @cached_property
-    def _by_scope(self) -> dict[Hashable, list[Directive]]:
-        by_scope: dict[Hashable, list[Directive]] = {}
-        for directive in self.directives:
-            by_scope.setdefault(directive.scope, []).append(directive)
-        return by_scope
+    def _first(self) -> dict[tuple[Hashable, str], Directive]:
+        """First comment with a scope and a code."""
+        return {(each.scope, code): each for each in reversed(self.directives) for code in each.codes}
 
     def unknown(self) -> Iterator[Problem]:
         """Yield problems for names that no rule has, and for unknown instructions in comments."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
 from dataclasses import asdict, dataclass, field
+from textwrap import indent
 
 import click
 
@@ -20,7 +22,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.finding_lines import print_findings
 from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.many_files import many_files
-from mudline.cli.streams import emit, emit_json
+from mudline.cli.streams import emit
 from mudline.cli.view import Progress, View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.language.diagnostics import Coverage, Diagnostic
@@ -65,8 +67,7 @@ def command(*, decks: GivenDecks, output_format: str, fail_on: str, no_outside: 
     progress = Progress(len(inputs.files), view, shown=output_format == "text" or not sys.stdout.isatty())
     with closing(_judged(inputs, (decks.units, no_outside, listing), total, progress, jobs)) as judged:
         if output_format == "json":
-            rows = [{**verdict.row(), "findings": [*map(as_object, findings)]} for verdict, findings, _ in judged]
-            emit_json({"decks": rows, "total": asdict(total)})
+            _print_json(judged, total)
         elif output_format == "csv":
             emit(csv_lines(_csv(verdict for verdict, _, _ in judged)))
         else:
@@ -151,6 +152,17 @@ def _judged(
 
 
 # ---------------------------------------------------------------------------------------------------------- output
+
+
+def _print_json(judged: Iterable[Judged], total: ValidationTotal) -> None:
+    """Print one JSON object; each deck is written as soon as it is judged."""
+    mark = '{\n "decks": ['
+    for verdict, findings, _ in judged:
+        row = {**verdict.row(), "findings": [as_object(each) for each in findings]}
+        emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
+        mark = ","
+    end = "\n ]" if mark == "," else f"{mark}]"
+    emit([end, ',\n "total": ', indent(json.dumps(asdict(total), indent=1, ensure_ascii=False), " ").lstrip(), "\n}\n"])
 
 
 def _print_text(judged: Iterable[Judged], total: ValidationTotal, view: View) -> None:
