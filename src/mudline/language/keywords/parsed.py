@@ -20,7 +20,7 @@ from mudline.language.keywords.table import Column, Table, from_rows
 from mudline.language.keywords.text import Value, reads_as_name
 from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
 from mudline.language.syntax.fields import Field
-from mudline.language.syntax.rows import RawRows, line_spans, read_rows, row_fields, stacked
+from mudline.language.syntax.rows import RawRows, read_rows, row_fields, row_starts, stacked
 
 
 class TableBuilder:
@@ -229,7 +229,7 @@ class Places:
     def _starts(self, run: Span) -> array[int]:
         """Return the offsets of the rows of a run, cached."""
         if run not in self._lines:
-            self._lines[run] = array("q", (line.start for line in line_spans(self.text, run)))
+            self._lines[run] = row_starts(self.text, run)
         return self._lines[run]
 
 

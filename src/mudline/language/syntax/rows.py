@@ -184,6 +184,11 @@ def line_spans(text: str, span: Span) -> Iterator[Span]:
     return starmap(Span, map(methodcaller("span"), _ROW.finditer(text, *span)))
 
 
+def row_starts(text: str, run: Span) -> array[int]:
+    """Return the offsets of the lines of a run that are rows."""
+    return array("q", map(methodcaller("start"), _ROW.finditer(text, *run)))
+
+
 def row_fields(text: str, line: Span, columns: int) -> list[Field]:
     """Return the first `columns` fields of one row, with their places."""
     body = text[line.start : line.end]
