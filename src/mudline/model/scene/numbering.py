@@ -221,7 +221,7 @@ def distinct(indices: Indices) -> Indices:
 
     `np.unique` imports `numpy.ma`, which takes longer than all sets of most decks.
     """
-    flat: Indices = indices.reshape(-1)
+    flat = indices if indices.ndim == 1 else indices.reshape(-1)
     if not np.count_nonzero(flat[1:] <= flat[:-1]):
         return flat
     ordered = np.sort(flat)

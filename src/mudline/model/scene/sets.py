@@ -47,7 +47,7 @@ class NamedSet:
     where: place of its definition.
     open: the set has, or may have, elements that the deck does not show.
     faulty: some of its lines could not be read, which is reported.
-    listed: indices of its elements as its lines give them, without those of subsets.
+    listed: indices of its elements as each of its lines gives them, without those of subsets.
     """
 
     name: str
@@ -55,14 +55,15 @@ class NamedSet:
     where: Where | None
     open: bool = False
     faulty: bool = False
-    listed: Indices = field(default_factory=lambda: _NOTHING)
+    listed: Sequence[Indices] = ()
 
     __repr__ = short_repr
 
     @property
     def in_order(self) -> Indices:
         """Indices of its elements in the order of its lines; in that of the file if the set has subsets."""
-        return self.listed if np.array_equal(np.sort(self.listed), self.elements) else self.elements
+        listed = np.concatenate([_NOTHING, *self.listed])
+        return listed if np.array_equal(np.sort(listed), self.elements) else self.elements
 
 
 @dataclass(slots=True, repr=False, eq=False)
@@ -221,8 +222,7 @@ class _SetReader:
                     indices, whole = self._range(range_, where.inside("members", index))
                     listed.append(indices)
                 unsure |= not whole
-        union = distinct(_joined([*listed, *parts]))
-        self.sets.named[key] = NamedSet(first.name, union, place, unsure, faulty, _joined(listed))
+        self.sets.named[key] = NamedSet(first.name, _union([*listed, *parts]), place, unsure, faulty, listed)
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
@@ -272,8 +272,15 @@ class _SetReader:
         return elements, not lacking
 
 
-def _joined(parts: list[Indices]) -> Indices:
-    return parts[0] if len(parts) == 1 else np.concatenate([_NOTHING, *parts])
+def _union(parts: list[Indices]) -> Indices:
+    """Return the union of parts in ascending order; that of a part and others inside it is the part, not a copy."""
+    largest = max(parts, key=len, default=_NOTHING)
+    union = distinct(largest)
+    others = distinct(np.concatenate([_NOTHING, *(part for part in parts if part is not largest)]))
+    if not len(others):
+        return union
+    there = union[np.minimum(np.searchsorted(union, others), len(union) - 1)] == others
+    return union if there.all() else distinct(np.concatenate([union, others]))
 
 
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:

@@ -45,6 +45,8 @@ CONNECTING = 10.0
 
 _AHEAD = 10
 """Items sent ahead for each process or worker thread."""
+_COUNTED = 5.0
+"""Seconds after which the workers of a scheduler are counted again: their number changes."""
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for on Windows."""
 
@@ -79,13 +81,17 @@ class Pool:
     _stack: ExitStack
     _executor: Executor | None = None
     _client: Client | None = None
+    _threads: int = 1
+    _counted: float = 0.0
 
     @property
     def size(self) -> int:
-        """Number of items that may be in progress at a time; that of a scheduler's workers changes."""
+        """Number of items that may be in progress at a time."""
         if self.scheduler is None:
             return processors(self.jobs)
-        return max(1, sum(self._client.nthreads().values())) if self._client else 1
+        if self._client is not None and time.monotonic() - self._counted > _COUNTED:
+            self._threads, self._counted = max(1, sum(self._client.nthreads().values())), time.monotonic()
+        return self._threads
 
     def submit(self, work: Callable[[*_Given], _Made], given: tuple[*_Given]) -> Future[_Made | Crash]:
         """Submit work for an item; raises RunError."""
@@ -284,15 +290,21 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def interrupt_deferred() -> Iterator[None]:
-    """Defer Ctrl-C until the block ends, but on Windows; processes started in the block never receive it."""
-    if sys.platform == "win32":
+    """Defer Ctrl-C until the block ends; processes started in the block do not receive it until they ignore it."""
+    if threading.current_thread() is not threading.main_thread():
         yield
         return
-    masked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    received: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
+    masked = sys.platform != "win32" and signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, masked)
+        if sys.platform != "win32":
+            signal.pthread_sigmask(signal.SIG_SETMASK, masked or ())
+        signal.signal(signal.SIGINT, before)
+        if received:
+            signal.raise_signal(signal.SIGINT)
 
 
 # ---------------------------------------------------------------------------------------------------------- scheduler
