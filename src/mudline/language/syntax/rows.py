@@ -180,7 +180,7 @@ def _pieces(text: str, span: Span) -> Iterator[Span]:
 
 
 def line_spans(text: str, span: Span) -> Iterator[Span]:
-    """Return the spans of the lines of a run without line ends; blank lines are not rows."""
+    """Return the spans of the lines of a run, which begins a line, without line ends; blank lines are not rows."""
     return starmap(Span, map(methodcaller("span"), _ROW.finditer(text, *span)))
 
 
