@@ -124,6 +124,8 @@ def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
             yield stream
         return
     target = Path(os.path.realpath(path))
+    if target.is_symlink():  # it leads to itself
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), str(path))
     if target.exists() and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
     old = target.stat() if target.exists() else None
@@ -228,6 +230,8 @@ def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
             if _locked(handle) is not False and path.exists():
                 return handle, path
             os.close(handle)
+        except FileExistsError:
+            continue
         except BaseException:
             with suppress(OSError):
                 path.unlink()

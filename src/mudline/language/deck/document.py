@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Collection
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, cached_property
 from typing import Any, cast
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
@@ -141,15 +142,21 @@ class LinesOrigin(TextOrigin):
             where = where if own else line
         return where
 
+    @cached_property
+    def _heads(self) -> list[tuple[int, Where]]:
+        """Lines of sections and keywords, each with its place."""
+        return [
+            (self.source.position(head.span.start)[0], Where(i, j))
+            for i, section in enumerate(self.tree.sections)
+            for j, head in enumerate([section.head, *(block.head for block in section.blocks)], -1)
+            if head
+        ]
+
     def _line(self, offset: int) -> Where:
         """The line of a block, a section or the preamble that an offset of the text is in, else the block."""
         line = self.source.position(offset)[0]
-        found, first = Where(path=("preamble", line - 1)), 0
-        for i, section in enumerate(self.tree.sections):
-            for j, head in enumerate([section.head, *(block.head for block in section.blocks)], -1):
-                at = self.source.position(head.span.start)[0] if head else 0
-                if first < at <= line:
-                    found, first = Where(i, j), at
+        at = bisect_right(self._heads, line, key=lambda head: head[0])
+        first, found = self._heads[at - 1] if at else (0, Where(path=("preamble", line - 1)))
         if line > first > 0 and (found in self.raw or found.block < 0):
             return found.inside("lines", line - first - 1)
         return found

@@ -8,6 +8,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
+from operator import methodcaller
 
 from mudline.basics.limits import LARGEST_DECK, LONGEST_LINE, MOST_LINES, MOST_WORDED
 from mudline.basics.short_repr import short_repr
@@ -96,7 +97,7 @@ class Source:
     def line_starts(self) -> array[int]:
         """Offset of the first character of every line; CR, CRLF and LF each end one."""
         starts = array("q", [0])
-        starts.extend(match.end() for match in _LINE_FEED.finditer(self.unified))
+        starts.extend(map(methodcaller("end"), _LINE_FEED.finditer(self.unified)))
         return starts
 
     def position(self, offset: int) -> tuple[int, int]:

@@ -205,7 +205,7 @@ class LawTables:
 
     @cached_property
     def steepens(self) -> bool:
-        """Return True if an unloading line may be less steep than the virgin path that led to it."""
+        """True if an unloading line may be less steep than the virgin path that led to it."""
         if self.unloading is None:
             return False
         stiffness = np.full(len(self.half), np.inf)

@@ -24,12 +24,12 @@ from mudline.language.keywords.text import shown
 from mudline.language.syntax.rows import read_number
 from mudline.model.contact import LawKind
 from mudline.model.scene.given_positions import Doubt
+from mudline.model.scene.laws import SetLaw, present
 from mudline.model.scene.numbering import Indices, distinct
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
     from mudline.model.scene.curves import SceneCurve
-    from mudline.model.scene.laws import SetLaw
 
 
 _PIPE_IN_PIPE = ("PIP SECTION", "PIP CONNECTION")
@@ -62,7 +62,7 @@ def missing_laws(scene: ResolvedDeck, free: Indices, unknown: list[UnknownKeywor
     `some` is True if other elements of the line are not in `free`, and may carry a pipe inside of them.
     """
     covered = scene.laws.covered[free]
-    for block in distinct(covered[covered >= 0]).tolist():
+    for block in present(covered):
         elements = free[covered == block]
         message = (
             f"{_touching(scene, elements)} stiffness: this block gives none, and overrides earlier ones as a whole; "

@@ -117,7 +117,8 @@ def seabed_warnings(scene: Scene) -> list[ContactWarning]:
         return []
     try:
         evaluation = evaluate_scene(scene)
-        evaluation.run([watch := ContactWatch(evaluation)])
+        watch = ContactWatch(evaluation)
+        evaluation.run([watch])
     except DeckError:
         return []
     return [warning for warning in watch.warnings() if warning.diagnostic.code in codes]

@@ -252,7 +252,8 @@ def read_external(path: Path) -> ExternalElements:
         raise data_error(table.file, "no row below the header", 2)
     ids, first, second = map(table.whole, ("element", "node1", "node2"))
     _, firsts = np.unique(ids, return_index=True)
-    for row in np.setdiff1d(np.arange(len(ids)), firsts)[:1].tolist():
+    if len(repeated := np.setdiff1d(np.arange(len(ids)), firsts)):
+        row = int(repeated[0])
         raise data_error(table.file, f"element {ids[row]} is given twice", table.lines[row])
     diameter = _positive("diameter", table)
     length = _positive("length", table) if "length" in table.columns else np.full(len(ids), np.nan)

@@ -43,7 +43,7 @@ TRIED = 0.05
 CONNECTING = 10.0
 """Seconds to wait for a scheduler, and for its first worker."""
 
-_AHEAD = 10
+_AHEAD = 4
 """Items sent ahead for each process or worker thread."""
 _COUNTED = 5.0
 """Seconds after which the workers of a scheduler are counted again: their number changes."""
@@ -166,7 +166,7 @@ def many(
         waiting = deque[tuple[_Item, "Future[_Made | Crash] | None"]]()
         for item, given in rest:
             waiting.append((item, None if given is None else pool.submit(work, given)))
-            if len(waiting) > _AHEAD * pool.size:
+            while waiting and (waiting[0][1] is None or len(waiting) > _AHEAD * pool.size):
                 first, future = waiting.popleft()
                 yield first, pool.result(future)
         yield from ((item, pool.result(future)) for item, future in waiting)
