@@ -18,7 +18,8 @@ class Overview(NamedTuple):
 
     Attributes:
         summary: sections, keywords, counts, sets, curves, diameters and laws, as `mudline show --output-format json`.
-        sheet: `columns`, and in `rows` the values of each run of elements with the same properties, by column.
+        sheet: `columns` by key, with heading and unit, and in `rows` the values of each run of elements with the same
+            properties, by the same keys.
         errors: reasons why the deck is not legal; summary and sheet may lack parts because of them.
     """
 

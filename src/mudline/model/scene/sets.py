@@ -276,9 +276,10 @@ def _union(parts: list[Indices]) -> Indices:
     """Return the union of parts in ascending order; that of a part and others inside it is the part, not a copy."""
     largest = max(parts, key=len, default=_NOTHING)
     union = distinct(largest)
-    others = distinct(np.concatenate([_NOTHING, *(part for part in parts if part is not largest)]))
-    if not len(others):
+    rest = [part for part in parts if part is not largest and len(part)]
+    if not rest:
         return union
+    others = distinct(np.concatenate(rest))
     there = union[np.minimum(np.searchsorted(union, others), len(union) - 1)] == others
     return union if there.all() else distinct(np.concatenate([union, others]))
 
