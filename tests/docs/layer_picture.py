@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2] / "src" / "mudline"
 LAYERS = ("language", "model", "editing", "tools")
 """The layers whose packages have a box each; each of the others is a box."""
 BASE = "codes, diagnostics, rules"
-API = ("api", "commands", "keywords", "plugins")
+API = ("api", "keywords", "plugins")
 _COLOURS = {"language": "#e8f0f7", "model": "#e6f4e6", "editing": "#fdf1d8", "tools": "#f3e8f5", "": "#f2f2f2"}
 
 _WIDTH, _ROW, _BOX = 880, 74, (118, 34)
