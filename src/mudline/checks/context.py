@@ -32,6 +32,8 @@ class LintContext:
 
     dialect: the deck language that the deck must keep to, "mudline", or "flexcom" without extension keywords.
     fixing: repairs are made, so repairs that another deck next to this one forbids must not be offered.
+    text: tree, source and places of a deck that was read from text; None for a deck that a program made, and for a
+        document that no keyword text can express.
 
     The deck of a document is read as keyword text, so that both have the same findings.
     """
@@ -39,19 +41,17 @@ class LintContext:
     deck: Deck
     dialect: str = "mudline"
     fixing: bool = False
+    text: TextOrigin | None = field(init=False, default=None)
     _made: dict[object, Any] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         """Take the keyword text of a document."""
-        if self.text is None and not self.deck.origin.takes_edits:
+        if not isinstance(self.deck.origin, TextOrigin) and not self.deck.origin.takes_edits:
             from mudline.language.deck.document import read_as_text  # noqa: PLC0415 - few decks are documents
 
             self.deck = read_as_text(self.deck)
-
-    @property
-    def text(self) -> TextOrigin | None:
-        """Tree, source and places of a deck that was read from text; None for JSON or YAML."""
-        return self.deck.origin if isinstance(self.deck.origin, TextOrigin) else None
+        if isinstance(self.deck.origin, TextOrigin):
+            self.text = self.deck.origin
 
     @cached_property
     def scene(self) -> Scene:

@@ -41,15 +41,14 @@ def rule_of_text(
 ) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
     """Return a decorator that makes a rule of a function of a text and its unified source.
 
-    Decks in JSON and YAML have no text, and nothing is reported in them.
+    Nothing is reported in a deck without a text.
     """
 
     def register(find: Callable[[TextOrigin, str], Iterator[Problem]]) -> object:
         @rule(code, off=off)
         @wraps(find)
         def check(context: LintContext) -> Iterable[Problem]:
-            text = context.deck.origin
-            return find(text, text.source.unified) if isinstance(text, TextOrigin) else ()
+            return () if context.text is None else find(context.text, context.text.source.unified)
 
         return check
 
