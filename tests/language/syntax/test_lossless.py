@@ -17,13 +17,13 @@ from mudline.editing.formatting.document import formatted
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import Severity
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import parse
+from mudline.language.syntax.tree import matchable, parse
 from tests.helpers.builders.keyword_texts import deck_texts, mutated
 from tests.helpers.samples import SAMPLES
 
 FILES = sorted(path for path in SAMPLES.iterdir() if path.is_file())
 BOM = b"\xef\xbb\xbf"
-LEXER = Lark(grammar_file("deck.lark").read_text(encoding="utf-8"), parser=None, lexer="basic")
+LEXER = Lark(matchable(grammar_file("deck.lark").read_text(encoding="utf-8")), parser=None, lexer="basic")
 
 
 def read_back(data: bytes) -> Source:

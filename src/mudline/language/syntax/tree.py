@@ -100,10 +100,15 @@ def _lines() -> re.Pattern[str]:
         parser("deck").terminals,
         key=lambda token: (-token.priority, -token.pattern.max_width, -len(token.pattern.value), token.name),
     )
-    pattern = "|".join(f"(?P<{token.name}>{token.pattern.to_regexp()})" for token in order)
-    if sys.version_info < (3, 11, 5):  # there a possessive repeat of a group that fails halfway keeps what it took
-        pattern = pattern.replace(")*+", ")*").replace(")++", ")+")
-    return re.compile(pattern)
+    return re.compile(matchable("|".join(f"(?P<{token.name}>{token.pattern.to_regexp()})" for token in order)))
+
+
+def matchable(pattern: str) -> str:
+    """Return a pattern without possessive repeats of groups before Python 3.11.5.
+
+    There a repeat that fails halfway keeps what it took. Elsewhere they need a fifth of the time, and no memory.
+    """
+    return pattern.replace(")*+", ")*").replace(")++", ")+") if sys.version_info < (3, 11, 5) else pattern
 
 
 def canonical_name(line: str) -> str:
