@@ -19,9 +19,8 @@ from mudline.checks.registry import UnknownRule, rules
 from mudline.checks.settings import nearest_settings
 from mudline.editing.formatting.document import FormatError, formatted
 from mudline.language.deck.forms.json import to_json
-from mudline.language.deck.keyword_text import to_keyword
+from mudline.language.deck.keyword_text import same_meaning, to_keyword
 from mudline.language.deck.loading import load_bytes
-from mudline.language.deck.meaning import same_meaning
 from mudline.language.diagnostics import DeckError, Severity
 from mudline.language.keywords.values import DataFile
 from mudline.language.syntax.source import Source

@@ -29,7 +29,7 @@ from mudline.language.diagnostics import Diagnostic
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
-    from mudline.language.deck.evaluated import EvaluatedDeck
+    from mudline.language.deck.parameters import EvaluatedDeck
     from mudline.language.rules import Rule
     from mudline.model.contact import ContactModel, ContactResult
     from mudline.model.contact.arrays import Positions

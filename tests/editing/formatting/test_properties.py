@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from mudline.editing.formatting.document import FormatError, formatted
 from mudline.editing.formatting.rows import Columns, NumberRows, RowKind, WordRows, word_rows
 from mudline.language.codes.lines import SYN014
+from mudline.language.deck.keyword_text import same_meaning
 from mudline.language.deck.loading import dump, load_bytes
-from mudline.language.deck.meaning import same_meaning
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import DeckError, Severity
 from mudline.language.keywords.library.mesh import ElementRow, NodeRow

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from mudline.language.deck.keyword_text import same_meaning
 from mudline.language.deck.loading import load_bytes
-from mudline.language.deck.meaning import same_meaning
 from mudline.language.deck.model import Deck
 
 DECK = """\

@@ -8,8 +8,7 @@ import pytest
 
 from mudline.basics.limits import DEEPEST
 from mudline.language.expression.evaluation import evaluate
-from mudline.language.expression.nodes import EvaluationError, ExpressionError, UndefinedName, UnknownFunction
-from mudline.language.expression.parsing import parse
+from mudline.language.expression.parsing import EvaluationError, ExpressionError, UndefinedName, UnknownFunction, parse
 
 PARAMETERS: dict[str, float | str] = {
     "x": 3.0,

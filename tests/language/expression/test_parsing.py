@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 from mudline.basics.limits import DEEPEST, LONGEST_EQUATION
 from mudline.language.expression.evaluation import FORMS, FUNCTIONS, evaluate
-from mudline.language.expression.nodes import Expression, ExpressionError, NameSpan
-from mudline.language.expression.parsing import parse
+from mudline.language.expression.parsing import Expression, ExpressionError, NameSpan, parse
 
 
 def test_text_names_and_functions_are_kept_as_written() -> None:

@@ -11,8 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.language.expression.evaluation import evaluate
-from mudline.language.expression.nodes import EvaluationError
-from mudline.language.expression.parsing import parse
+from mudline.language.expression.parsing import EvaluationError, parse
 
 PARAMETERS = {"x": 2.5, "y": -3.0, "zero": 0.0, "big": 1e200}
 

@@ -17,7 +17,7 @@ from mudline.basics.spelling import nearest
 from mudline.editing.assignment.fields import FieldTarget, FieldValue, blocks_of, target_of, values_of
 from mudline.editing.assignment.paths import Assignment, WrittenOperand, parse_path
 from mudline.language.codes.fields import SYN003
-from mudline.language.deck.meaning import same_meaning
+from mudline.language.deck.keyword_text import same_meaning
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Diagnostic, Problem, Severity, Where
@@ -25,8 +25,7 @@ from mudline.language.keywords.contents import range_fault
 from mudline.language.keywords.model import Part, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation, Kind
-from mudline.language.syntax.edits import TextEdit, edited_bytes
-from mudline.language.syntax.layout import replacement_in_layout
+from mudline.language.syntax.edits import TextEdit, edited_bytes, replacement_in_layout
 from mudline.language.syntax.source import Source
 from mudline.model.scene.model import resolve
 

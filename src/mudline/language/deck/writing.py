@@ -12,9 +12,8 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem, Span
 from mudline.language.keywords.fields import Comment
-from mudline.language.syntax.edits import OverlapError, TextEdit, edited_bytes
+from mudline.language.syntax.edits import OverlapError, TextEdit, edited_bytes, replacement_in_layout
 from mudline.language.syntax.fields import split
-from mudline.language.syntax.layout import replacement_in_layout
 from mudline.language.syntax.rows import line_spans
 from mudline.language.syntax.source import Source
 

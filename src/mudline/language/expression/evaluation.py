@@ -19,7 +19,7 @@ from typing import Final, NamedTuple, assert_never
 
 from mudline.basics.limits import LONGEST_TEXT
 from mudline.language.diagnostics import Span
-from mudline.language.expression.nodes import (
+from mudline.language.expression.parsing import (
     Brackets,
     Call,
     EvaluationError,

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from mudline.language.deck.evaluated import EvaluatedDeck, evaluated
-from mudline.language.deck.parameters import folded
+from mudline.language.deck.parameters import EvaluatedDeck, evaluated, folded
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.values import Names

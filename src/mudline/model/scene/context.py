@@ -11,9 +11,8 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
 from mudline.basics.spelling import Effort, edits, equally_near, nearest, same_marks
 from mudline.language.codes.fields import SYN016
-from mudline.language.deck.evaluated import EvaluatedDeck, all_labels_read, labels_given
 from mudline.language.deck.model import Deck, NamedPlace, Opaque
-from mudline.language.deck.parameters import bare, folded, name_key
+from mudline.language.deck.parameters import EvaluatedDeck, all_labels_read, bare, folded, labels_given, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Literal
 
 from mudline.basics.resources import modules_of
 from mudline.basics.short_repr import counted, cut, outline
-from mudline.language.deck.evaluated import evaluated
 from mudline.language.deck.model import Deck
+from mudline.language.deck.parameters import evaluated
 from mudline.language.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.language.rules import RULES, Rule, findings
 from mudline.model.scene.context import Context

@@ -13,9 +13,8 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001, SYN005
 from mudline.language.codes.references import REF001, REF005, REF006, REF010
-from mudline.language.deck.evaluated import EvaluatedDeck
 from mudline.language.deck.model import Deck, Opaque, raw_lines
-from mudline.language.deck.parameters import bare, folded, name_key
+from mudline.language.deck.parameters import EvaluatedDeck, bare, folded, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import idents_given, is_read, kinds_of, names_given

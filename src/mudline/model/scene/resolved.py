@@ -16,8 +16,7 @@ from mudline.basics.limits import SHOWN_LETTERS
 from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, listed_numbers
 from mudline.language.codes import RUN001
 from mudline.language.codes.references import REF001
-from mudline.language.deck.evaluated import EvaluatedDeck
-from mudline.language.deck.parameters import folded, name_key
+from mudline.language.deck.parameters import EvaluatedDeck, folded, name_key
 from mudline.language.diagnostics import DeckError, Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import facts_of

@@ -11,8 +11,7 @@ from mudline.language.deck.parameters import bare, folded, list_items, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
 from mudline.language.expression.evaluation import CONSTANTS
-from mudline.language.expression.nodes import ExpressionError
-from mudline.language.expression.parsing import parse
+from mudline.language.expression.parsing import ExpressionError, parse
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.fields import first_key, read_line

@@ -15,8 +15,7 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span
 from mudline.language.expression.evaluation import CONSTANTS
-from mudline.language.expression.nodes import ExpressionError
-from mudline.language.expression.parsing import parse
+from mudline.language.expression.parsing import ExpressionError, parse
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, apply_edits
