@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mudline.language.diagnostics import Span
-from mudline.language.keywords.grammar import Content, Node, by_lines
+from mudline.language.syntax.grammars import Content, Node, by_lines
 
 Reported = tuple[int | None, str, str]
 """The line that does not fit, None for the end of the block; what was expected in its place; and what is missing."""

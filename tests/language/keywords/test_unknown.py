@@ -11,7 +11,7 @@ from mudline.language.deck.loading import load_bytes
 from mudline.language.keywords.library.seabed_curves import SeabedStiffness
 from mudline.language.keywords.library.seabed_properties import SeabedProperties
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME
+from mudline.language.keywords.values import UNKNOWN, UNKNOWN_NAME
 from tests.checks.findings import found
 
 HEAD = "$MODEL\n"

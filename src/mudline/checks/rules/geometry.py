@@ -15,10 +15,9 @@ from mudline.checks.rules.unusual import UNT004, UNT005
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Where
-from mudline.language.keywords.contents import idents_given, names_given
+from mudline.language.keywords.contents import idents_given, is_partly_unknown, names_given
 from mudline.language.keywords.model import FieldSpec, Part, record_schema
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.unknown import is_partly_unknown
 from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind

@@ -18,8 +18,7 @@ from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.language.keywords.model import FieldSpec, Part
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.unknown import is_unknown, known_name
-from mudline.language.keywords.values import DataFile
+from mudline.language.keywords.values import DataFile, is_unknown, known_name
 from mudline.language.rules import rule
 from mudline.language.syntax.edits import TextEdit, with_line_ends
 from mudline.model.scene.data_files import fault_of, has_uneven_times, operators, unequal_frequencies

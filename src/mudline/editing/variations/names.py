@@ -13,8 +13,7 @@ from mudline.language.deck.parameters import DEFINING, PLACEHOLDER, Parameters, 
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.text import hint, shown, suggestion
-from mudline.language.keywords.unknown import is_unknown, known_name
-from mudline.language.keywords.values import Names
+from mudline.language.keywords.values import Names, is_unknown, known_name
 from mudline.language.syntax.tree import canonical_name
 
 if TYPE_CHECKING:

@@ -16,8 +16,7 @@ from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.model import FieldSpec, Part, Path, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown, suggestion
-from mudline.language.keywords.unknown import UNKNOWN, is_unknown
-from mudline.language.keywords.values import Equation, Kind, Label, Names
+from mudline.language.keywords.values import UNKNOWN, Equation, Kind, Label, Names, is_unknown
 from mudline.language.syntax.rows import read_number
 
 if TYPE_CHECKING:

@@ -13,7 +13,6 @@ from mudline.basics.spelling import nearest
 from mudline.language.codes.fields import SYN002, SYN003, SYN016
 from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN014
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
-from mudline.language.keywords.grammar import ROW, Content, Node
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Path, Record, record_schema
 from mudline.language.keywords.parsed import Item, ParsedRecord, Places, TableBuilder
 from mudline.language.keywords.table import Table, fewest_fields, row_format
@@ -30,9 +29,9 @@ from mudline.language.keywords.text import (
     read_value,
     semicolons,
 )
-from mudline.language.keywords.unknown import UNKNOWN, Partly
-from mudline.language.keywords.values import Kind, Label, Names
+from mudline.language.keywords.values import UNKNOWN, Kind, Label, Names, Partly
 from mudline.language.syntax.fields import Field, FieldGroup, read_line, split, trimmed
+from mudline.language.syntax.grammars import ROW, Content, Node
 from mudline.language.syntax.rows import blank_separated, line_spans
 
 _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT

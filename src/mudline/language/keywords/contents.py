@@ -16,9 +16,8 @@ from itertools import chain
 from typing import Literal, TypeGuard, cast, get_args
 
 import numpy as np
-from pydantic import Field
+from pydantic import BaseModel, Field
 
-from mudline.language.keywords import grammar
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import (
     FEWEST_POINTS,
@@ -33,9 +32,9 @@ from mudline.language.keywords.model import (
     record_schema,
 )
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.unknown import UNKNOWN_NAME
-from mudline.language.keywords.values import Equation, Kind, Label, Names
+from mudline.language.keywords.values import UNKNOWN_NAME, Equation, Kind, Label, Names, Partly, is_unknown
 from mudline.language.syntax.fields import canonical_key
+from mudline.language.syntax.grammars import first_terminals, terminal_of
 
 _INLINE = re.compile(r",[ \t]*([A-Za-z][\w \t-]*)=([^,\r\n]*)")
 
@@ -103,6 +102,13 @@ def is_read(part: Part) -> bool:
     return known and next(kept_places(part), None) is None
 
 
+def is_partly_unknown(value: object) -> bool:
+    """Return True if a value, an item of a list, or a field of a table or part could not be read."""
+    if is_unknown(value) or type(value) is Partly or (isinstance(value, Table) and value.unknown):
+        return True
+    return isinstance(value, BaseModel) and any(map(is_partly_unknown, value.__dict__.values()))
+
+
 # ----------------------------------------------------------------------- settings behind which lines are kept
 
 
@@ -144,8 +150,8 @@ def _add_openers(part: type[Part], near: Sequence[str], far: Sequence[str], by_k
     for slot in schema.slots:
         firsts: dict[type[Record], list[str]] = {}
         for record in slot.record.values():  # the keys with which its lines may begin
-            terminals = grammar.first_terminals(record.rule)
-            firsts[record] = [key for key in record_schema(record).keys if grammar.terminal_of(key) in terminals]
+            terminals = first_terminals(record.rule)
+            firsts[record] = [key for key in record_schema(record).keys if terminal_of(key) in terminals]
         for record, own in firsts.items():
             siblings = [key for sibling, keys in firsts.items() if sibling is not record for key in keys]
             _add_openers(record, own, [*near, *far, *siblings], by_key)

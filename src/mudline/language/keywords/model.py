@@ -44,9 +44,8 @@ from mudline.language.keywords.table import (
     read_table,
     row_format,
 )
-from mudline.language.keywords.unknown import is_unknown
 from mudline.language.keywords.usual import Usual
-from mudline.language.keywords.values import Facts, Kind, Subject
+from mudline.language.keywords.values import Facts, Kind, Subject, is_unknown
 
 FEWEST_POINTS = 2
 """Least number of points of a curve."""

@@ -14,12 +14,12 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.codes.fields import SYN002, SYN003, SYN015
 from mudline.language.codes.lines import SYN001, SYN004, SYN005
 from mudline.language.diagnostics import Problem, Severity, Span
-from mudline.language.keywords.grammar import ROW, Content
 from mudline.language.keywords.model import FieldSpec, ListRow, Part, Path, Record, record_schema
 from mudline.language.keywords.table import Column, Table, from_rows
 from mudline.language.keywords.text import Value, reads_as_name
-from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
+from mudline.language.keywords.values import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
 from mudline.language.syntax.fields import Field
+from mudline.language.syntax.grammars import ROW, Content
 from mudline.language.syntax.rows import RawRows, read_rows, row_fields, row_starts, stacked
 
 

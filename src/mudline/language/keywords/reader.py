@@ -13,11 +13,9 @@ from mudline.basics.short_repr import short_repr
 from mudline.basics.spelling import nearest
 from mudline.language.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.language.diagnostics import Problem, Severity, Span
-from mudline.language.keywords import grammar
 from mudline.language.keywords.builder import Builder
 from mudline.language.keywords.contents import is_choice, opened, range_faults
 from mudline.language.keywords.fields import AS_TEXT
-from mudline.language.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.language.keywords.model import Block, Part, RecordSchema, record_schema
 from mudline.language.keywords.parsed import (
     Between,
@@ -31,6 +29,7 @@ from mudline.language.keywords.parsed import (
 )
 from mudline.language.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.language.syntax.fields import first_key, trimmed
+from mudline.language.syntax.grammars import END, ROW, Content, Mismatch, by_lines, terminal_of, tree_of
 from mudline.language.syntax.rows import line_spans
 from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock
 
@@ -95,7 +94,7 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
             if key not in keys or (ends and not is_choice(declared, key, value)):
                 return False
     reader = _BlockParser(text, raw, declared, last=False)
-    if grammar.tree_of(declared.rule, reader.contents()) is None or reader.lost:
+    if tree_of(declared.rule, reader.contents()) is None or reader.lost:
         return False
     kept = len(reader.kept)
     block = read_block(text, raw, declared, last=False)
@@ -139,9 +138,9 @@ class _BlockParser:
 
     def _attempt(self, contents: list[Content]) -> ReadBlock:
         mismatches: list[Mismatch] = []
-        node = grammar.tree_of(self.declared.rule, contents)
+        node = tree_of(self.declared.rule, contents)
         if node is None:
-            node, mismatches = grammar.by_lines(self.declared.rule, contents, insert=not self.declared.open_lines)
+            node, mismatches = by_lines(self.declared.rule, contents, insert=not self.declared.open_lines)
             if self.declared.open_lines:
                 self._keep_all({mismatch.found for mismatch in mismatches if mismatch.found}, contents)
                 mismatches = [mismatch for mismatch in mismatches if not mismatch.found]
@@ -242,7 +241,7 @@ class _BlockParser:
         """Read a line that begins with a setting; return the keys that end the kept lines after it, if any."""
         key = first_key(self.text, span)
         if key in self.keys:
-            contents.append(Content(grammar.terminal_of(key), span))
+            contents.append(Content(terminal_of(key), span))
             return opened(self.declared, key, self.text[slice(*span)].partition("=")[2])
         known = sorted(self.keys)
         allowed = ", ".join(f"{name}=" for name in known) or "no KEY= at all"
@@ -262,7 +261,7 @@ class _BlockParser:
         return frozenset()
 
     def _report(self, mismatch: Mismatch) -> None:
-        hidden = set() if self.raw.older else {grammar.terminal_of(key) for key in older_keys(self.declared)}
+        hidden = set() if self.raw.older else {terminal_of(key) for key in older_keys(self.declared)}
         shown_ = (terminal for terminal in mismatch.expected if terminal != END and terminal not in hidden)
         expected = " or ".join(map(self._describe, shown_))
         expected = expected or "nothing more in this block"
@@ -297,7 +296,7 @@ class _BlockParser:
 
             formats = dict.fromkeys(row_formats(schemas_of(self.declared)))
             return "a row " + " or ".join(f"`{shape}`" for shape in formats)
-        return next(f"{key}=" for key in all_keys(self.declared) if grammar.terminal_of(key) == terminal)
+        return next(f"{key}=" for key in all_keys(self.declared) if terminal_of(key) == terminal)
 
 
 def _label(part: type[Part], place: tuple[str | int, ...]) -> str:

@@ -1,13 +1,13 @@
-"""Types of values in the fields of a deck, kinds of names, and facts about a keyword besides its fields."""
+"""Types of values in the fields of a deck, values that could not be read, kinds of names, facts about a keyword."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self, get_args
+from typing import Annotated, Any, ClassVar, Final, Literal, NamedTuple, Self, get_args
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
@@ -328,3 +328,90 @@ def number_meant(text: str) -> str:
     """Return the number that was meant by a text with letters in place of digits and a point, or ""."""
     number = text.translate(_LETTERS)
     return number if number != text and _WITH_LETTERS.fullmatch(text) else ""
+
+
+# ---------------------------------------------------------------- unreadable values: neither absent (None) nor numbers
+
+
+class Unknown(float):
+    """Class of `UNKNOWN`: a NaN whose attributes and items are unknown too.
+
+    A check for an absent value (`is None`) does not report it, and a comparison of numbers is False. In a table an
+    unknown cell is a NaN without a word.
+    """
+
+    __slots__ = ()
+
+    def __new__(cls) -> Self:
+        """Return the NaN."""
+        return super().__new__(cls, "nan")
+
+    def __getattr__(self, name: str) -> Any:
+        """Return an unknown attribute; AttributeError for names that Python itself looks up."""
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return self
+
+    def __call__(self, *_: object, **__: object) -> Self:
+        """Return an unknown result."""
+        return self
+
+    def __getitem__(self, _: object) -> Self:
+        """Return an unknown item."""
+        return self
+
+    def __iter__(self) -> Iterator[Any]:
+        """Return an iterator over the known items: none."""
+        return iter(())
+
+    def __len__(self) -> int:
+        """Return the number of known items: 0."""
+        return 0
+
+    def __bool__(self) -> bool:
+        """Return True: the value was given."""
+        return True
+
+    def __repr__(self) -> str:
+        """Return the name of the value."""
+        return "UNKNOWN"
+
+    def __reduce__(self) -> str:
+        """Return the name of the only instance, also for a copy."""
+        return "UNKNOWN"
+
+
+UNKNOWN: Final[Any] = Unknown()
+"""Unreadable value, in the place of a value of any type but text."""
+
+
+class UnknownName(str):
+    """Class of `UNKNOWN_NAME`: an empty text, which refers to no object."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        """Return the name of the value."""
+        return "UNKNOWN_NAME"
+
+    def __reduce__(self) -> str:
+        """Return the name of the only instance, also for a copy."""
+        return "UNKNOWN_NAME"
+
+
+UNKNOWN_NAME: Final[str] = UnknownName()
+"""Unreadable name or word."""
+
+
+class Partly(list[Any]):
+    """List with unreadable items: it may have more items than these."""
+
+
+def known_name(name: str | None) -> str | None:
+    """Return a name that was given and could be read, else None."""
+    return None if name is UNKNOWN_NAME else name
+
+
+def is_unknown(value: object) -> bool:
+    """Return True if a value is given in the deck, but could not be read."""
+    return value is UNKNOWN or value is UNKNOWN_NAME

@@ -1,20 +1,27 @@
-"""Grammars of the package as lark parsers, from tables in the package; without tables they are compiled."""
+"""Grammars of the package as lark parsers, from tables in the package; without tables they are compiled.
+
+The second level of reading is below: the parser of a keyword's rule, applied to the lines of the first level.
+"""
 
 from __future__ import annotations
 
 import pickle
-from functools import cache
+from collections.abc import Iterator, Sequence
+from copy import copy
+from functools import cache, lru_cache
 from io import BytesIO
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import lark
-from lark import Lark, Transformer
+from lark import Lark, Transformer, Tree, UnexpectedToken
 from lark.grammar import NonTerminal
 from lark.load_grammar import Grammar, load_grammar
+from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from mudline.basics.files import write_atomically
 from mudline.basics.resources import grammar_file
+from mudline.language.diagnostics import Span
 
 Makes = type[Transformer[Any, Any]]
 """Class without state, whose methods create the results of the parser in place of a tree."""
@@ -92,3 +99,138 @@ def _below(grammar: Grammar, start: str) -> Grammar:
             inside = rules[name][2].scan_values(lambda each: isinstance(each, NonTerminal))
             waiting += [inner.name for inner in inside if inner.name in rules]  # other names are aliases
     return Grammar([rules[name] for name in needed], grammar.term_defs, grammar.ignore)
+
+
+# ------------------------------------------------------------------------------------------------ the lines of a block
+
+END = "$END"
+ROW = "ROW"
+_FEW = 64
+"""Greatest number of lines of a block whose tree is cached: decks hold blocks of the same few forms."""
+
+
+class Content(NamedTuple):
+    """Line of a block, or run of rows, as a token of lark: lark needs only its `type`, the terminal."""
+
+    type: str
+    span: Span
+
+
+Node = Tree[Content]
+"""Rule with the contents and rules below it."""
+
+
+class Mismatch(NamedTuple):
+    """Line that does not fit; `found` None is the end of the block, `missing` the line that was left out before it."""
+
+    found: Content | None
+    expected: tuple[str, ...]
+    missing: str
+
+
+@cache
+def terminal_of(key: str) -> str:
+    """Return the terminal of a setting line by its first key."""
+    return "K_" + "".join(letter if letter.isalnum() else "_" for letter in key)
+
+
+@cache
+def first_terminals(rule: str) -> frozenset[str]:
+    """Return the terminals with which the lines of a rule may begin."""
+    return frozenset(_begin(rule).accepts()) - {END}
+
+
+def _begin(rule: str) -> InteractiveParser:
+    return parser("blocks", rule).parse_interactive()
+
+
+def tree_of(rule: str, contents: Sequence[Content]) -> Node | None:
+    """Return the tree of a block under its rule if all of its lines fit, else None."""
+    parsed = _parsed if len(contents) <= _FEW else _parsed.__wrapped__
+    tree = parsed(rule, tuple([content.type for content in contents]))
+    return tree and _with_lines(tree, iter(contents))
+
+
+def _with_lines(tree: Node, lines: Iterator[Content]) -> Node:
+    """Return a tree whose leaves are replaced by other lines, in order."""
+    return Tree(
+        tree.data, [_with_lines(child, lines) if type(child) is Tree else next(lines) for child in tree.children]
+    )
+
+
+@lru_cache(1024)
+def _parsed(rule: str, terminals: tuple[str, ...]) -> Node | None:
+    """Return the tree of a sequence of terminals; None if the rule does not fit."""
+    state = _begin(rule)
+    try:
+        for terminal in terminals:
+            _feed(state, _placeless(terminal))
+        return cast("Node", state.feed_eof())
+    except UnexpectedToken:
+        return None
+
+
+def by_lines(rule: str, contents: Sequence[Content], *, insert: bool = True) -> tuple[Node, list[Mismatch]]:
+    """Return the tree of the lines of a block that fit, and the mismatches.
+
+    A line that does not fit is left out, unless it fits after a missing line; both are reported. With `insert` False no
+    line counts as missing: so it is in a block with lines of unknown form.
+    """
+    state = _begin(rule)
+    mismatches: list[Mismatch] = []
+    for content in contents:
+        if _takes(state, content):  # a parser that refuses a token has already closed rules
+            _feed(state, content)
+            continue
+        expected = tuple(sorted(state.accepts()))
+        options = (name for name in expected if insert and name != END and _takes(state, _placeless(name), content))
+        missing = next(options, "")
+        if missing:
+            _feed(state, _placeless(missing), content)
+        mismatches.append(Mismatch(content, expected, missing))
+    if END not in (expected_last := state.accepts()):
+        mismatches.append(Mismatch(None, tuple(sorted(expected_last)), _complete(state)))
+    return _without_missing(cast("Node", state.feed_eof())), mismatches
+
+
+def _placeless(terminal: str) -> Content:
+    """Return the token of a missing line."""
+    return Content(terminal, Span(-1, -1))
+
+
+def _feed(state: InteractiveParser, *tokens: Content) -> None:
+    for token in tokens:
+        state.feed_token(cast("Any", token))
+
+
+def _takes(state: InteractiveParser, *tokens: Content) -> bool:
+    """Return True if a parser accepts the tokens; the trial builds no tree, so that nothing has to be copied."""
+    present = state.parser_state
+    rules = copy(present.parse_conf)
+    rules.callbacks = {}
+    trial = type(present)(rules, present.lexer, [*present.state_stack], [*present.value_stack])
+    try:
+        for token in tokens:
+            trial.feed_token(cast("Any", token), token.type == END)
+    except UnexpectedToken:
+        return False
+    return True
+
+
+def _complete(state: InteractiveParser) -> str:
+    """Feed the mandatory lines that are missing at the end of a block; return the first.
+
+    Each of them is a line that ends the block, or a line that was not inserted yet.
+    """
+    fed: list[str] = []
+    while END not in (options := sorted(state.accepts())):
+        ends = (option for option in options if _takes(state, _placeless(option), _placeless(END)))
+        fed.append(next(ends, "") or next((option for option in options if option not in fed), options[0]))
+        _feed(state, _placeless(fed[-1]))
+    return fed[0]
+
+
+def _without_missing(node: Node) -> Node:
+    """Return the tree without missing lines."""
+    below = [_without_missing(child) if isinstance(child, Tree) else child for child in node.children]
+    return Tree(node.data, [child for child in below if isinstance(child, Tree) or child.span.start >= 0])

@@ -20,8 +20,7 @@ from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.model import Block, FieldSpec, Part, Row, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.unknown import known_name
-from mudline.language.keywords.values import Names
+from mudline.language.keywords.values import Names, known_name
 from mudline.language.keywords.writer import field_text
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import number

@@ -13,7 +13,8 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
+from mudline.language.keywords.contents import is_partly_unknown
+from mudline.language.keywords.values import UNKNOWN, known_name
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve, set_name

@@ -11,7 +11,7 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import FEWEST_POINTS
-from mudline.language.keywords.unknown import known_name
+from mudline.language.keywords.values import known_name
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
 from mudline.model.scene.numbering import Floats, Indices, Mask, Numbered, looked_up, picked

@@ -13,9 +13,9 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF001, REF005, REF008, REF009, REF010
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Problem, Severity, Where
-from mudline.language.keywords.contents import set_slots
+from mudline.language.keywords.contents import is_partly_unknown, set_slots
 from mudline.language.keywords.text import advice_on, shown
-from mudline.language.keywords.unknown import is_partly_unknown, known_name
+from mudline.language.keywords.values import known_name
 from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import Indices, Numbered, distinct
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.unknown import known_name
+from mudline.language.keywords.values import known_name
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask, picked
 from mudline.model.scene.sections import stiffnesses

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.language.keywords.unknown import is_partly_unknown
+from mudline.language.keywords.contents import is_partly_unknown
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask
 from mudline.model.scene.rules.extensions import of_elements, rule_of_extension
