@@ -16,13 +16,12 @@ import numpy as np
 
 from mudline.basics.arguments import expect, expect_word, given_path, read_only, several
 from mudline.basics.files import write_atomically
-from mudline.basics.quantities import checked_units
+from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.checks.configuration import Configured
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select as _chosen
 from mudline.language.deck import model
-from mudline.language.deck.forms import KEYWORD, form_of
-from mudline.language.deck.loading import dump, load_bytes, load_path
+from mudline.language.deck.loading import KEYWORD, dump, form_of, load_bytes, load_path
 from mudline.language.deck.typed import TypedDeck
 from mudline.language.deck.writing import keyword_file
 from mudline.language.diagnostics import Diagnostic
@@ -440,4 +439,6 @@ def given_rules(select: Iterable[str], ignore: Iterable[str]) -> tuple[Rule, ...
 
 def given_units(units: str | None) -> str | None:
     """Return a unit system passed as an argument, or None; raises ValueError."""
-    return None if units is None else checked_units(units)
+    if units is not None:
+        expect_word(units, "units", UNIT_SYSTEMS)
+    return units

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any, cast
 
@@ -35,9 +35,10 @@ def expect_fields(holder: object, kinds: Mapping[str, tuple[Any, str]]) -> None:
         expect(getattr(holder, name), name, kind, expected)
 
 
-def expect_word(value: object, name: str, allowed: tuple[str, ...], expected: str) -> None:
-    """Raise ValueError unless the value is one of the allowed words, which `expected` lists."""
+def expect_word(value: object, name: str, allowed: Collection[str], expected: str = "") -> None:
+    """Raise ValueError unless the value is one of the allowed words, which `expected` may list in another way."""
     if not isinstance(value, str) or value not in allowed:
+        expected = expected or f"one of {', '.join(allowed)}"
         raise ValueError(f"{name} must be {expected}, not {cut(repr(value), 60)}")
 
 

@@ -8,19 +8,10 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any, Literal, NamedTuple
 
-from mudline.basics.short_repr import cut
-
 RESULT_FORMAT = "mudline-result/2"
 """Name and version of the format of result files."""
 
 UNIT_SYSTEMS = ("metric", "imperial", "user")
-
-
-def checked_units(units: object) -> str:
-    """Return the name of a system of units; raises ValueError for an unknown name."""
-    if not isinstance(units, str) or units not in UNIT_SYSTEMS:
-        raise ValueError(f"units must be one of {', '.join(UNIT_SYSTEMS)}, not {cut(repr(units), 60)}")
-    return units
 
 
 class UnitNames(NamedTuple):

@@ -59,7 +59,7 @@ def backbone(  # noqa: PLR0913 - as many as the command has options
 
     Raises ValueError for an argument outside the model's range; the message begins with the name of the argument.
     """
-    expect_word(model, "model", tuple(MODELS), f"one of {', '.join(MODELS)}")
+    expect_word(model, "model", MODELS)
     for word, flag in (("legacy", legacy), ("extend", extend)):
         expect(flag, word, bool, "True or False")
     chosen = MODELS[model]

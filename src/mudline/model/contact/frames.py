@@ -147,7 +147,7 @@ def _table(result: ContactResult, name: str) -> ResultTable:
 
 def _columns(result: ContactResult, name: TableName) -> tuple[ResultTable, list[ResultColumn], ResultPart]:
     """Return a table, its flat columns and its part over all steps."""
-    expect_word(name, "table", get_args(TableName), f"one of {', '.join(get_args(TableName))}")
+    expect_word(name, "table", get_args(TableName))
     table, part = _table(result, name), ResultPart(0, result.as_series())
     return table, [flat for column in table.columns(part) for flat in column.flat()], part
 

@@ -133,7 +133,7 @@ def plot_panel(result: ContactResult, axes: Axes, name: str, *, elements: Sequen
     """Draw one panel of the figure of a result; raises ValueError if it has none of that name."""
     data = PlotData.of_result(result, elements)
     panels = {panel.name: panel for panel in panels_of(data)}
-    expect_word(name, "panel", tuple(panels), f"one of {', '.join(panels)}")
+    expect_word(name, "panel", panels)
     panels[name].draw_into(axes, DrawnStretch(data))
     return axes
 
