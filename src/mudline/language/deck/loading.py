@@ -9,7 +9,6 @@ from pkgutil import iter_modules
 from types import ModuleType
 from typing import cast
 
-from mudline.basics.files import suffix_of
 from mudline.basics.limits import LARGEST_FILE
 from mudline.language.deck import forms
 from mudline.language.deck.faults import refusal
@@ -36,8 +35,8 @@ def form_names() -> tuple[str, ...]:
 
 def form_of(name: str) -> str:
     """Return the form that the suffix of a file name means, which is its name, else "keyword"."""
-    suffix = suffix_of(name)
-    form = "yaml" if suffix == "yml" else suffix
+    suffix = Path(name).suffix.lower()
+    form = "yaml" if suffix == ".yml" else suffix.removeprefix(".")
     return form if form in form_names() else KEYWORD
 
 
