@@ -21,7 +21,8 @@ from mudline.checks.configuration import Configured
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select as _chosen
 from mudline.language.deck import model
-from mudline.language.deck.loading import KEYWORD, dump, form_of, load_bytes, load_path
+from mudline.language.deck.forms import KEYWORD, form_of
+from mudline.language.deck.loading import dump, load_bytes, load_path
 from mudline.language.deck.typed import TypedDeck
 from mudline.language.deck.writing import keyword_file
 from mudline.language.diagnostics import Diagnostic

@@ -17,7 +17,8 @@ from mudline.basics.files import write_atomically
 from mudline.basics.quantities import csv_lines
 from mudline.checks.context import read_deck
 from mudline.checks.engine import naming_causes
-from mudline.language.deck.loading import KEYWORD, dump, form_of, load_bytes, load_path
+from mudline.language.deck.forms import KEYWORD, form_of
+from mudline.language.deck.loading import dump, load_bytes, load_path
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.scene import model as scenes
 

@@ -23,7 +23,7 @@ from mudline.checks.engine import Fixing, LintSettings, covered_findings, joined
 from mudline.checks.recovery.blocks import start_of
 from mudline.checks.report import FileReport
 from mudline.checks.suppression import MARK
-from mudline.language.deck.loading import form_of
+from mudline.language.deck.forms import form_of
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Diagnostic, Problem, Repair, Severity, Span

@@ -13,8 +13,9 @@ from mudline.cli.inputs import STDIN, GivenDeck, require_text, takes_deck
 from mudline.cli.streams import emit, notify, require, write_text
 from mudline.cli.view import View
 from mudline.language.codes.lines import SYN001
+from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.keyword_text import with_raw_lines
-from mudline.language.deck.loading import SUFFIXES, dump, form_names, form_of
+from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Problem, Severity
 from mudline.language.keywords.contents import is_refused

@@ -20,7 +20,7 @@ from mudline.checks.configuration import Configured
 from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.language.deck import MARK
-from mudline.language.deck.loading import SUFFIXES, form_of
+from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be_deck
 from mudline.language.diagnostics import DeckError
 

@@ -22,7 +22,7 @@ from mudline.cli.lint_report import LintReport
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, notify, reason, write_text
 from mudline.cli.view import Progress, View
-from mudline.language.deck.loading import form_of
+from mudline.language.deck.forms import form_of
 
 if TYPE_CHECKING:
     from mudline.checks.engine import LintSettings

@@ -23,7 +23,8 @@ from mudline.editing.assignment.assigning import Assigned, AssignmentError, assi
 from mudline.editing.assignment.conditions import ConditionError, parse_condition
 from mudline.editing.assignment.fields import FieldTarget, target_of
 from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment
-from mudline.language.deck.loading import KEYWORD, form_of, load_bytes
+from mudline.language.deck.forms import KEYWORD, form_of
+from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Diagnostic, Severity
 from mudline.language.syntax.edits import TextEdit, edited_bytes

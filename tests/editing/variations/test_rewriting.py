@@ -14,7 +14,8 @@ from mudline.checks.registry import select
 from mudline.editing.variations.cases import parameter_field
 from mudline.editing.variations.files import ExpansionPlan
 from mudline.editing.variations.planning import plan
-from mudline.language.deck.loading import dump, form_names, load_bytes
+from mudline.language.deck.forms import form_names
+from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.parameters import Parameters, folded
 from mudline.language.keywords.values import Equation
 from tests.helpers.builders.decks import VARIED_MODEL, VARIED_PARAMETERS, varied_deck

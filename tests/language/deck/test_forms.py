@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 from hypothesis import assume, given
 
-from mudline.language.deck.loading import dump, form_of, load_bytes
+from mudline.language.deck.forms import form_of
+from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Severity
 from mudline.language.keywords.contents import is_refused

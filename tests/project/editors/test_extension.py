@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 import mudline
-from mudline.language.deck.loading import SUFFIXES
+from mudline.language.deck.forms import SUFFIXES
 from tests.cli.runner import ROOT, process
 from tests.helpers.builders.decks import BAD_NUMBER
 from tests.project.editors.extension import EXTENSION, needs_node, node

@@ -28,7 +28,7 @@ from mudline.checks.rules.keywords import LEG001
 from mudline.checks.suppression import suppressions
 from mudline.language.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN007, SYN008, SYN009, SYN010, SYN011, SYN013
-from mudline.language.deck.loading import KEYWORD
+from mudline.language.deck.forms import KEYWORD
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source, units_of
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span

@@ -10,8 +10,9 @@ from typing import cast
 from mudline.editing.formatting.rows import AlignedRows, RowKind, cut
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN014
+from mudline.language.deck.forms import form_of
 from mudline.language.deck.keyword_text import same_meaning
-from mudline.language.deck.loading import dump, form_of, load_bytes
+from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Span

@@ -15,8 +15,9 @@ from mudline.editing.comparison.model import Difference
 from mudline.editing.migration.refusals import misspelt, refusals, superseded_blocks
 from mudline.editing.migration.rewriting import rewrite, unused_definitions
 from mudline.language.codes import MIG001
+from mudline.language.deck.forms import form_of
 from mudline.language.deck.keyword_text import as_text
-from mudline.language.deck.loading import dump, form_of
+from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck, Opaque, comment_texts
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 from mudline.basics.files import recording_looks, version_of
 from mudline.basics.limits import LARGEST_NEIGHBOUR
 from mudline.language.codes import MIG001
-from mudline.language.deck.loading import SUFFIXES, load_path
+from mudline.language.deck.forms import SUFFIXES
+from mudline.language.deck.loading import load_path
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.diagnostics import DeckError, Problem, Where
 from mudline.language.keywords.catalogue import (

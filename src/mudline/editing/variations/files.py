@@ -14,7 +14,8 @@ from typing import cast
 from mudline.basics.overwriting import is_read
 from mudline.basics.short_repr import short_repr
 from mudline.editing.variations.cases import Action, ParameterTargets, Removal
-from mudline.language.deck.loading import dump, form_of
+from mudline.language.deck.forms import form_of
+from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Span

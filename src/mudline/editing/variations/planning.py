@@ -23,8 +23,8 @@ from mudline.editing.variations.files import (
 from mudline.editing.variations.names import filled, name_key, placeholders, undefined_variation, unquoted
 from mudline.language.codes import EXP001
 from mudline.language.codes.references import REF013
+from mudline.language.deck.forms import SUFFIXES
 from mudline.language.deck.keyword_text import as_text
-from mudline.language.deck.loading import SUFFIXES
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import NoValueError
 from mudline.language.deck.reading import read_source

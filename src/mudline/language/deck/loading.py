@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from functools import cache
 from importlib import import_module
 from pathlib import Path
-from pkgutil import iter_modules
 from types import ModuleType
 from typing import cast
 
 from mudline.basics.limits import LARGEST_FILE
 from mudline.language.deck import forms
 from mudline.language.deck.faults import refusal
+from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import Coverage
@@ -20,24 +19,6 @@ from mudline.language.keywords.contents import is_read
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import BlockReader, read_block
 from mudline.language.syntax.source import Source
-
-KEYWORD = "keyword"
-SUFFIXES = (".keyxm", ".keyxi", ".keyx", ".das")
-"""Suffixes of keyword text, in the order in which a name without a suffix is completed."""
-
-
-@cache
-def form_names() -> tuple[str, ...]:
-    """Return the modules of `forms`, found without importing one; "keyword" is the first."""
-    modules = iter_modules(forms.__path__)
-    return tuple(sorted((found.name for found in modules), key=lambda name: (name != KEYWORD, name)))
-
-
-def form_of(name: str) -> str:
-    """Return the form that the suffix of a file name means, which is its name, else "keyword"."""
-    suffix = Path(name).suffix.lower()
-    form = "yaml" if suffix == ".yml" else suffix.removeprefix(".")
-    return form if form in form_names() else KEYWORD
 
 
 def load_path(path: Path, name: str | None = None, *, form: str | None = None, units: str | None = None) -> Deck:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from mudline.basics.patterns import PathPattern, read_pattern
 from mudline.language.deck import MARK
-from mudline.language.deck.loading import SUFFIXES, form_of
+from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.syntax.source import KEY_FILE
 
 _HEAD = 4096

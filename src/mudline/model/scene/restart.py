@@ -14,7 +14,8 @@ from mudline.basics.files import look, unsaved
 from mudline.basics.limits import LARGEST_FILE, MOST_CONTINUED, MOST_NEIGHBOURS
 from mudline.basics.outside import without_text
 from mudline.language.codes.references import REF015
-from mudline.language.deck.loading import SUFFIXES, load_bytes, load_path
+from mudline.language.deck.forms import SUFFIXES
+from mudline.language.deck.loading import load_bytes, load_path
 from mudline.language.deck.model import Base, BaseProblem, Deck
 from mudline.language.deck.parameters import Parameters, evaluated
 from mudline.language.diagnostics import DeckError, Problem, Severity, Where

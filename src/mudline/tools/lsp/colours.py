@@ -5,7 +5,7 @@ from __future__ import annotations
 from lsprotocol import types
 from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, String, _TokenType
 
-from mudline.language.deck.loading import form_of
+from mudline.language.deck.forms import form_of
 from mudline.language.highlighting.lexer import DeckLexer
 from mudline.tools.lsp.documents import OpenDocument, units_of
 

@@ -22,7 +22,7 @@ from mudline.checks.fixing import with_severities
 from mudline.checks.registry import UnknownRule, select
 from mudline.checks.settings import Settings, nearest_settings
 from mudline.language.deck import MARK
-from mudline.language.deck.loading import KEYWORD, form_of
+from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import NoValueError, Parameters
 from mudline.language.deck.reading import TextOrigin

@@ -11,7 +11,7 @@ from mudline.basics.limits import SHOWN_ROWS
 from mudline.checks.engine import Fixing
 from mudline.checks.fixing import fix_bytes
 from mudline.checks.pages import page
-from mudline.language.deck.loading import KEYWORD, form_of
+from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.diagnostics import Diagnostic, Fix, Severity, Span
 from mudline.tools.lsp.decks import Analysis
 from mudline.tools.lsp.documents import OpenDocument

@@ -15,7 +15,7 @@ from pygls.protocol import LanguageServerProtocol, lsp_method
 
 from mudline.basics.limits import LARGEST_OPEN
 from mudline.basics.version import __version__
-from mudline.language.deck.loading import SUFFIXES
+from mudline.language.deck.forms import SUFFIXES
 from mudline.tools.lsp import findings
 from mudline.tools.lsp.decks import Analysis, Decks
 from mudline.tools.lsp.documents import OpenDocument, file_of
