@@ -25,10 +25,14 @@ from mudline.language.syntax.tree import canonical_name
 
 
 class EditableDeck(Deck):
-    """Deck whose blocks can be changed; `TypedDeck` adds their classes."""
+    """Deck whose blocks can be found by keyword or class, and changed; `TypedDeck` adds their types."""
 
-    def all_of(self, keyword: str | type[Block], section: str | None) -> Iterator[tuple[Where, Any]]:
-        """Return the modelled blocks of a keyword or class, each with its place, in the order of the file."""
+    def blocks(self, keyword: str | type[Block], section: str | None = None) -> Iterator[tuple[Where, Any]]:
+        """Return the blocks of a keyword, given by name or class, each with its place, in the order of the file.
+
+        Without `section`, the sections where the keyword belongs are searched; a keyword that belongs in `MODEL` is
+        searched only there. Blocks whose lines are not read are left out.
+        """
         expect(keyword, "keyword", (str, type), "a str or a class of mudline.keywords")
         name = _name_of(keyword)
         if section is None:
@@ -40,9 +44,12 @@ class EditableDeck(Deck):
         blocks = chain.from_iterable(Deck.blocks(self, name, place) for place in sections)
         return ((where, block) for where, block in blocks if isinstance(keyword, str) or type(block) is keyword)
 
-    def one_of(self, keyword: str | type[Block], section: str | None) -> Any:
-        """Return the only block of a keyword; raises UnknownNameError if there is none, ValueError for several."""
-        blocks = [block for _, block in self.all_of(keyword, section)]
+    def block(self, keyword: str | type[Block], section: str | None = None) -> Any:
+        """Return the only block of a keyword, given by its name or its class.
+
+        Raises UnknownNameError, a KeyError, if there is none, and ValueError if there are several.
+        """
+        blocks = [block for _, block in self.blocks(keyword, section)]
         name = _name_of(keyword)
         if len(blocks) > 1:
             raise ValueError(f"the deck has {len(blocks)} blocks of *{name}: go through deck.blocks({name!r})")

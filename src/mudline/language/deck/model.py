@@ -66,7 +66,6 @@ class Range(NamedTuple):
 
 _INTERNAL = frozenset(
     [
-        "all_of",
         "alone",
         "base_of",
         "bases",
@@ -77,7 +76,6 @@ _INTERNAL = frozenset(
         "folder_of",
         "incomplete",
         "lost",
-        "one_of",
         "origin",
         "own_sections",
         "place",
