@@ -16,7 +16,8 @@ def __getattr__(name: str) -> type[Block]:
     """Import the module of a class when the class is first used."""
     if name not in _ENTRIES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    declared = globals()[name] = catalogue.load(_ENTRIES[name])
+    declared: type[Block] = catalogue.load(_ENTRIES[name])
+    globals()[name] = declared
     declared.__doc__ = "\n".join([f"*{_ENTRIES[name].keyword}: {declared.summary}", "", *field_lines(declared)])
     return declared
 

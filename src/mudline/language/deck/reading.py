@@ -12,7 +12,6 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
 from mudline.language.codes.fields import SYN002, SYN006
 from mudline.language.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN011, SYN012, SYN014
-from mudline.language.deck.likeness import RawLines
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.language.deck.parameters import Parameters
 from mudline.language.diagnostics import MORE, Code, Problem, Severity, Span, Where
@@ -298,7 +297,7 @@ class _DeckReader:
         sections = catalogue.sections_of(keyword)
         if sections is None:
             if self._reports(SYN009, None, where):
-                near = RawLines(self.text, raw).meant(keyword, section)
+                near = catalogue.meant_keyword(self.text, raw, section)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
                 replacement = f"*{near}" if catalogue.entries(near) else ""
                 if keyword.startswith("*"):

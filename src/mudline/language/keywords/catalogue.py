@@ -7,19 +7,24 @@ declarations are not imported.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable
 from functools import cache, lru_cache
 from importlib import import_module
 from itertools import takewhile
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from pydantic_core import from_json
 
 from mudline.basics.spelling import Effort, nearest
+from mudline.language.diagnostics import Severity
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.names_only import GIVES, NAMES, ZERO_LENGTH
+from mudline.language.keywords.reader import read_block
 from mudline.language.keywords.values import Entry, Facts, Gift, Names, OpaqueKeyword
+from mudline.language.syntax.fields import first_key
+from mudline.language.syntax.tree import LeafKind, RawBlock
 
 SECTIONS = (
     "PREPROCESSOR",
@@ -100,26 +105,20 @@ def declarations(keyword: str) -> list[type[Block]]:
 
 
 @cache
-def load(entry: Entry) -> type[Block]:
-    """Return the block class of a declaration; its module is imported."""
-    return cast("type[Block]", getattr(import_module(f"{_LIBRARY}.{entry.module}"), entry.name))
+def load(entry: Entry) -> Any:
+    """Return a declaration, a block class or an `OpaqueKeyword`; its module is imported."""
+    return getattr(import_module(f"{_LIBRARY}.{entry.module}"), entry.name)
 
 
 def opaque_keyword(section: str, keyword: str) -> OpaqueKeyword | None:
     """Return the declaration of a keyword that is passed through; None if at most its name is known."""
     kept = (entry for entry in entries(keyword) if entry.kept and section in entry.sections)
-    return next(map(load_opaque, kept), None)
-
-
-@cache
-def load_opaque(entry: Entry) -> OpaqueKeyword:
-    """Return the declaration of a keyword whose lines are kept; its module is imported."""
-    return cast("OpaqueKeyword", getattr(import_module(f"{_LIBRARY}.{entry.module}"), entry.name))
+    return next(map(load, kept), None)
 
 
 def opaque_keywords() -> list[OpaqueKeyword]:
     """Return every declaration of a keyword whose lines are kept, in the order of the catalogue."""
-    return [load_opaque(entry) for entry in index() if entry.kept]
+    return [load(entry) for entry in index() if entry.kept]
 
 
 def block_classes() -> list[type[Block]]:
@@ -275,6 +274,49 @@ def suggest_keyword(keyword: str, section: str = "", effort: Effort | None = Non
         or _begun(keyword, known)
         or _before(keyword, [name for name in read_keywords() if name not in but])
     )
+
+
+_TRIED = 4
+"""Greatest number of similar known names whose lines are compared with those of an unknown name."""
+
+
+def meant_keyword(text: str, raw: RawBlock, section: str) -> str:
+    """Return the known keyword that an unknown one stands for: the nearest whose lines these may be, or ""."""
+    tried: tuple[str, ...] = ()
+    while len(tried) < _TRIED and (near := _suggested(raw.name, section, tried)):
+        if _may_be(text, raw, near, section) or _stands_apart(text[slice(*raw.head.span)], near):
+            return near
+        tried += (near,)
+    return ""
+
+
+@lru_cache(256)
+def _suggested(keyword: str, section: str, but: tuple[str, ...]) -> str:
+    """Return `suggest_keyword`, cached for keywords of many decks, or of a deck that is read several times."""
+    return suggest_keyword(keyword, section, None, but)
+
+
+def _stands_apart(line: str, near: str) -> bool:
+    """Return True if words follow far behind the name, like the numbers of cards; any line may have these."""
+    words = r"[ \t]+".join(map(re.escape, near.split(" ")))
+    return re.match(rf"\*[ \t]*{words}(?:[ \t]{{2,}}|\t)\S", line, re.IGNORECASE) is not None
+
+
+def _may_be(text: str, raw: RawBlock, near: str, section: str) -> bool:
+    """Return True if a keyword is allowed in a section, and most lines can be read as those of the keyword."""
+    elsewhere = section not in (sections_of(near) or (section,))
+    if elsewhere and section in SECTIONS and section not in CERTAIN_SECTIONS:
+        return False
+    block = declared(near, section)
+    if block is None:
+        keys = [key for entry in entries(near) for key in load(entry).name_settings]
+        return not keys or any(first_key(text, leaf.span) in keys for leaf in raw.leaves)
+    read = read_block(text, RawBlock(raw.head, near, raw.leaves, raw.older), block, last=False)
+    places = (each.span.start for each in read.problems if each.span and each.weight is Severity.ERROR)
+    faults = len({text.count("\n", raw.head.span.start, place) for place in places})
+    data = [leaf for leaf in raw.leaves if leaf.kind not in (LeafKind.BLANK, LeafKind.COMMENT)]
+    lines = sum(text.count("\n", *leaf.span) or 1 for leaf in data)
+    return not lines or 2 * max(faults, read.lost) < lines
 
 
 def meant_in(keyword: str, section: str) -> str:
