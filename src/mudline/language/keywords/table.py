@@ -19,7 +19,8 @@ from mudline.language.syntax.rows import RawRows, read_rows
 
 Cell = float | int | str | None
 LARGEST_WHOLE = 2**53
-_ROWS_AT_ONCE = 8192
+_ROWS_AT_ONCE = 1 << 14
+"""Number of rows whose intermediate results fit into the fast memory of a processor."""
 
 
 def not_whole(written: str, value: float, label: str) -> str:
@@ -336,8 +337,6 @@ def _count(columns: Sequence[Column]) -> str:
 def _not_whole(table: Table) -> dict[tuple[int, int], str]:
     faults: dict[tuple[int, int], str] = {}
     columns = table.columns
-    if _all_whole(table.values, columns):
-        return faults
     for index in range(table.values.shape[1]):
         if not columns[index].whole:
             continue
@@ -350,23 +349,6 @@ def _not_whole(table: Table) -> dict[tuple[int, int], str]:
             faults[row, index] = not_whole(repr(value), value, columns[index].label)
             values[row] = math.nan
     return faults
-
-
-def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
-    """Return True if the leading whole-number columns hold only whole numbers other than zero."""
-    whole = [column.whole for column in columns]
-    count = whole.index(False) if False in whole else len(whole)
-    if True in whole[count:]:
-        return False
-    for start in range(0, len(values) if count else 0, _ROWS_AT_ONCE):
-        first = values[start : start + _ROWS_AT_ONCE, :count]
-        if not ((first == np.floor(first)) & (first != 0.0) & (np.abs(first) <= LARGEST_WHOLE)).all():
-            return False
-    return True
-
-
-_ROWS_AT_ONCE = 1 << 14
-"""Number of rows whose intermediate results fit into the fast memory of a processor."""
 
 
 AS_TABLES = "as tables"

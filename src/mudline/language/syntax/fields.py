@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from functools import lru_cache
-from itertools import pairwise
 from typing import NamedTuple
 
 from mudline.basics.limits import MOST_FIELDS
@@ -14,8 +13,8 @@ from mudline.language.diagnostics import Problem, Span
 
 _KEY = re.compile(r"[ \t]*([A-Za-z][\w \t-]*)=")
 _BLANKS = re.compile(r"[ \t]+")
-_SPECIAL = re.compile(r'[\["{/]')
 _MARKS = ',"[{/'
+_MARK = re.compile(r'[,"\[{/]')
 _OUTER = " \t\r\n"
 _NESTING = re.compile(r'[\[\]"/]')
 _CLOSERS = {"[": "]", "{": "}", '"': '"', "/": "/"}
@@ -67,7 +66,7 @@ def canonical_key(key: str) -> str:
 def read_line(text: str, span: Span, *, slashes: bool = False) -> FieldLine:
     """Return one line of `text`, split into groups of fields; with `slashes`, `/.../` is one field."""
     body = trimmed(text, *span)
-    fields, problems = _split(text, body, slashes=slashes)
+    fields, problems = split(text, body, slashes=slashes)
     if text.find("=", body.start, body.end) < 0:
         return FieldLine(body, [FieldGroup("", body, fields)] if fields else [], problems)
     groups: list[FieldGroup] = []
@@ -93,92 +92,45 @@ def first_key(text: str, span: Span) -> str:
     return canonical_key(match[1]) if match else ""
 
 
-def _field(text: str, piece: Span) -> Field:
-    written = text[piece.start : piece.end]
-    inner = written.strip(_OUTER)
-    return Field(inner, piece.start + (written.find(inner) if inner else 0))
-
-
 def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field], list[Problem]]:
-    """Return the fields between the top-level commas of a line, and the problems of its brackets."""
-    return _split(text, trimmed(text, *span), slashes=slashes)
-
-
-def _split(text: str, body: Span, *, slashes: bool) -> tuple[list[Field], list[Problem]]:
-    special = _SPECIAL.search(text, body.start, body.end)
-    if special is None and body.end - body.start < MOST_FIELDS:
-        return _parted(text[body.start : body.end], body.start), []
-    if sum(text.count(mark, *body) for mark in _MARKS) >= MOST_FIELDS:
+    """Return the fields of a line, and the problems of its brackets; an unclosed bracket ends with the line."""
+    body = trimmed(text, *span)
+    if body.end - body.start >= MOST_FIELDS and sum(text.count(mark, *body) for mark in _MARKS) >= MOST_FIELDS:
         message = f"more than {MOST_FIELDS} fields or brackets on one line: is this a deck?"
         return [], [Problem(SYN003, message, Span(body.start, body.start + 1))]
-    commas = _commas(text, body)
-    problems: list[Problem] = []
-    if special:
-        commas = _outside(commas, _protected(text, body, problems, slashes=slashes))
-    edges = pairwise([body.start - 1, *commas, body.end])
-    return [_field(text, Span(left + 1, right)) for left, right in edges], problems
-
-
-def _parted(body: str, start: int) -> list[Field]:
-    """Return the fields of a line that begins at the offset `start`, and in which only commas are special."""
-    if "," not in body:
-        return [Field(body, start)]
     fields: list[Field] = []
-    for piece in body.split(","):
-        text = piece.strip(_OUTER)
-        fields.append(Field(text, start + (piece.find(text) if text else 0)))
-        start += len(piece) + 1
-    return fields
+    problems: list[Problem] = []
+    start = at = body.start
+    while match := _MARK.search(text, at, body.end):
+        mark, place, at = match[0], match.start(), match.end()
+        if mark == ",":
+            fields.append(_field(text, start, place))
+            start = at
+        elif _opens(text, place, body.start, slashes=slashes):
+            at = _close(text, place, body.end)
+            if at < 0:
+                what = "=[" if mark == "[" else mark
+                message = f"{what} is not closed: {_CLOSERS[mark]} is missing before the end of the line"
+                problems.append(Problem(SYN006, message, Span(place - (mark == "["), place + 1)))
+                at = body.end
+    fields.append(_field(text, start, body.end))
+    return fields, problems
 
 
-def _commas(text: str, body: Span) -> list[int]:
-    offsets: list[int] = []
-    at = text.find(",", body.start, body.end)
-    while at >= 0:
-        offsets.append(at)
-        at = text.find(",", at + 1, body.end)
-    return offsets
+def _field(text: str, start: int, end: int) -> Field:
+    inner = trimmed(text, start, end)
+    return Field(text[inner.start : inner.end], inner.start)
 
 
-def _outside(commas: list[int], protected: list[Span]) -> list[int]:
-    kept: list[int] = []
-    spans = iter(protected)
-    span = next(spans, None)
-    for comma in commas:
-        while span is not None and span.end <= comma:
-            span = next(spans, None)
-        if span is None or comma < span.start:
-            kept.append(comma)
-    return kept
-
-
-def _protected(text: str, body: Span, problems: list[Problem], *, slashes: bool) -> list[Span]:
-    """Return the spans of equations, labels, strings and slash lists; an unclosed span ends with the line."""
-    spans: list[Span] = []
-    at = body.start
-    while match := _SPECIAL.search(text, at, body.end):
-        at = match.end()
-        opener, start = match[0], match.start()
-        if opener == "[" and text[start - 1 : start] != "=":
-            continue
-        if opener == "/" and not (slashes and _begins_field(text, body, start)):
-            continue
-        end = _close(text, start, body.end)
-        if end < 0:
-            what = "=[" if opener == "[" else opener
-            message = f"{what} is not closed: {_CLOSERS[opener]} is missing before the end of the line"
-            problems.append(Problem(SYN006, message, Span(start - (opener == "["), start + 1)))
-            end = body.end
-        spans.append(Span(start, end))
-        at = end
-    return spans
-
-
-def _begins_field(text: str, body: Span, at: int) -> bool:
-    """Return True if a slash is the first character of a field, as it must be to open a list."""
-    while at > body.start and text[at - 1] in " \t":
+def _opens(text: str, at: int, start: int, *, slashes: bool) -> bool:
+    """Return True if a mark opens an equation, a label or a string, or as the first character of a field a list."""
+    if text[at] == "[":
+        return text[at - 1 : at] == "="
+    if text[at] != "/":
+        return True
+    while at > start and text[at - 1] in " \t":
         at -= 1
-    return at == body.start or text[at - 1] == ","
+    return slashes and (at == start or text[at - 1] == ",")
 
 
 def is_one_field(text: str) -> bool:
