@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import OpenBlock, is_read, keeps_lines, kept_lines, openers
+from mudline.language.keywords.contents import OpenBlock, is_read, keeps_lines, kept_places, openers
 from mudline.language.keywords.model import Block, Record, record_schema
 from tests.helpers.builders.scenes import deck_of, faults
 
@@ -112,7 +112,8 @@ def test_lines_of_an_open_block_that_are_certainly_wrong_are_told() -> None:
     assert faults(head + " 1, 5, 2\n")[0].startswith("3:2 SYN003")
     assert faults("$LOAD CASE\n*RESTART\n LAST=a\n TYP=b\n")[0].startswith("4:2 SYN004 *RESTART has no setting TYP=")
     assert not is_read(only(head + " MODE=3\n"))
-    assert list(kept_lines(only(head + " MODE=3\n 1, 2\n word\n"))) == [" MODE=3", " word"]
+    places = kept_places(only(head + " MODE=3\n 1, 2\n word\n"))
+    assert [line for _, line in places] == [" MODE=3", " word"]
 
 
 @given(

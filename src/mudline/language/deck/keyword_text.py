@@ -164,12 +164,7 @@ def is_faulty(read: ReadBlock) -> bool:
 
 def raw_places(deck: Deck) -> list[Where]:
     """Return where a deck has blocks that are lines."""
-    return [
-        Where(i, j)
-        for i, section in enumerate(deck.sections)
-        for j, block in enumerate(section.blocks)
-        if isinstance(block, Opaque)
-    ]
+    return [where for where, _, block in deck.every_block() if isinstance(block, Opaque)]
 
 
 def with_raw_lines(deck: Deck, among: Collection[Where] | None = None) -> tuple[Deck, list[Where]]:

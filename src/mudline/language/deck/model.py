@@ -25,7 +25,7 @@ from mudline.language.diagnostics import (
     Severity,
     Where,
 )
-from mudline.language.keywords.contents import Role, every_name_given, gives_names, kept_lines
+from mudline.language.keywords.contents import Role, every_name_given, kept_places
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.values import Names, Text
@@ -291,7 +291,6 @@ class Deck:
         return [
             NamedPlace(kind, role, name, where._replace(path=path))
             for where, _, block in self.every_block()
-            if gives_names(type(block))
             for kind, role, name, path in every_name_given(block)
         ]
 
@@ -321,7 +320,7 @@ class Deck:
 
 def raw_lines(block: Block | Opaque) -> list[str]:
     """Return the lines of a block that are passed through: all without a model, else those that the model keeps."""
-    return block.lines if isinstance(block, Opaque) else kept_lines(block)
+    return block.lines if isinstance(block, Opaque) else [line for _, line in kept_places(block)]
 
 
 def comment_texts(deck: Deck) -> Iterator[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from types import NoneType
 from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
@@ -12,7 +12,7 @@ from mudline.basics.spelling import Effort
 from mudline.language.codes.fields import SYN002, SYN006, SYN017
 from mudline.language.codes.references import REF007, REF013, REF014
 from mudline.language.deck.model import Deck
-from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.language.diagnostics import Blocks, Problem, Severity, Where
 from mudline.language.keywords.model import FieldSpec, Part, Path, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown, suggestion
@@ -21,7 +21,7 @@ from mudline.language.syntax.rows import read_number
 
 if TYPE_CHECKING:
     from mudline.language.expression.parsing import Expression, ExpressionError
-    from mudline.language.keywords.library.mesh import Labels
+    from mudline.language.keywords.library.mesh import LabelLine, Labels
     from mudline.language.keywords.library.preprocessor import Parameter
 
 
@@ -143,17 +143,14 @@ class Parameters:
         return self._value(expression, where)
 
     def _define(self, parameter: Parameter, where: Where) -> None:
+        """Define a parameter, or the named and counted parameters of a list: `/a:1 b:2 3/`."""
         name, value = parameter.name, parameter.value
         if is_unknown(name) or is_unknown(value):
             return
-        if isinstance(value, str) and value.startswith("/"):
-            self._define_list(name, value, where)
+        if not isinstance(value, str) or not value.startswith("/"):
+            self._add(name, value, where)
             return
-        self._add(name, value, where)
-
-    def _define_list(self, prefix: str, text: str, where: Where) -> None:
-        """Define the named and counted parameters of a list: `/a:1 b:2 3/`."""
-        items, rest = list_items(prefix, text)
+        items, rest = list_items(name, value)
         for item in items:
             self._add(item.name, item.value, where)
         if rest:
@@ -232,17 +229,14 @@ class Parameters:
         try:
             return parse(equation.expression)
         except ExpressionError as error:
-            raise NoValueError(_problem(SYN017, equation, error, where)) from error
-
-    def _known(self, name: str) -> Value:
-        return self.values[folded(name)]
+            raise NoValueError(_problem(equation.expression, error, where)) from error
 
     def _value(self, expression: Expression, where: Where) -> Value:
         from mudline.language.expression.evaluation import evaluate  # noqa: PLC0415 - as above
         from mudline.language.expression.parsing import ExpressionError, UndefinedName, UnknownFunction  # noqa: PLC0415 - as above
 
         try:
-            return evaluate(expression, self._known)
+            return evaluate(expression, lambda name: self.values[folded(name)])
         except UndefinedName as error:
             word = expression.text[error.start : error.end]
             known = (definition.name for definition in self.definitions.values())
@@ -250,24 +244,19 @@ class Parameters:
             message = f"parameter {word} is not defined{near}: define it in *PARAMETERS"
             raise NoValueError(Problem(REF013, message, None, None, where)) from error
         except UnknownFunction as error:
-            problem = _problem(SYN017, _equation(expression), error, where)
+            problem = _problem(expression.text, error, where)
             message = f"{problem.message}; the equation is not evaluated"
             convert = expression.text[error.start : error.end].strip().casefold() == _CONVERT
             severity = Severity.INFO if convert else Severity.WARNING
             raise NoValueError(Problem(SYN017, message, None, severity, where)) from error
         except ExpressionError as error:
-            raise NoValueError(_problem(SYN017, _equation(expression), error, where)) from error
+            raise NoValueError(_problem(expression.text, error, where)) from error
 
 
-def _equation(expression: Expression) -> Equation:
-    """Return an expression as it is written in a deck."""
-    return Equation(f"=[{expression.text}]")
-
-
-def _problem(code: Code, equation: Equation, error: ExpressionError, where: Where) -> Problem:
-    piece = equation.expression[error.start : error.end]
+def _problem(text: str, error: ExpressionError, where: Where) -> Problem:
+    piece = text[error.start : error.end]
     at = f" at {shown(piece)}" if piece and shown(piece)[1:-1] not in error.message else ""
-    return Problem(code, f"{shown(equation)}: {error.message}{at}", None, None, where)
+    return Problem(SYN017, f"{shown(f'=[{text}]')}: {error.message}{at}", None, None, where)
 
 
 DEFINING = "PREPROCESSOR"
@@ -282,42 +271,42 @@ def labels_of(deck: Deck, parameters: Parameters, problems: list[Problem]) -> La
     """Return the labels that `*LABEL` defines; a label defined twice keeps its first number, and is a problem."""
     numbers: LabelNumbers = {}
     own = len(deck.own_sections)
-    for where, block in deck.blocks("LABEL"):
-        kind = Names.NODE
-        for index, line in enumerate(cast("Labels", block).labels):
-            if line.thing in Names.__members__:
-                kind = Names[str(line.thing)]
-            number = parameters.number(getattr(line.element if kind is Names.ELEMENT else line.node, "number", None))
-            if number is None or not number.is_integer() or not line.label:
-                continue
-            name = name_key(line.label)
-            if numbers.setdefault((kind, name), int(number)) != int(number) and where.section < own:
-                thing = kind.name.lower()
-                message = (
-                    f"label {shown(line.label)} is that of {thing} {numbers[kind, name]} and of {thing} {int(number)}: "
-                    "give one of them another label"
-                )
-                place = where.inside("labels", index, "label")
-                problems.append(Problem(REF007, message, where=place, blocks=Blocks.NEVER))
+    for where, kind, line in _label_lines(deck):
+        number = parameters.number(getattr(line.element if kind is Names.ELEMENT else line.node, "number", None))
+        if number is None or not number.is_integer() or not line.label:
+            continue
+        name = name_key(line.label)
+        if numbers.setdefault((kind, name), int(number)) != int(number) and where.section < own:
+            thing = kind.name.lower()
+            message = (
+                f"label {shown(line.label)} is that of {thing} {numbers[kind, name]} and of {thing} {int(number)}: "
+                "give one of them another label"
+            )
+            problems.append(Problem(REF007, message, where=where.inside("label"), blocks=Blocks.NEVER))
     return numbers
 
 
 def labels_given(deck: Deck, kind: Names) -> dict[str, str]:
     """Return the labels of nodes or of elements that `*LABEL` defines, as written, by their casefolded form."""
     labels: dict[str, str] = {}
-    for _, block in deck.blocks("LABEL"):
-        thing: str | None = Names.NODE.name
-        for line in cast("Labels", block).labels:
-            thing = line.thing or thing
-            if thing == kind.name and line.label:
-                labels.setdefault(name_key(line.label), bare(line.label))
+    for _, given, line in _label_lines(deck):
+        if given is kind and line.label:
+            labels.setdefault(name_key(line.label), bare(line.label))
     return labels
 
 
 def all_labels_read(deck: Deck) -> bool:
     """Return False if a line of `*LABEL` could not be read: it may define any label."""
-    lines = (line for _, block in deck.blocks("LABEL") for line in cast("Labels", block).labels)
-    return all(line.label for line in lines)
+    return all(line.label for _, _, line in _label_lines(deck))
+
+
+def _label_lines(deck: Deck) -> Iterator[tuple[Where, Names, LabelLine]]:
+    """Yield the lines of `*LABEL`, each with its place and the kind of object that it labels."""
+    for where, block in deck.blocks("LABEL"):
+        kind = Names.NODE
+        for index, line in enumerate(cast("Labels", block).labels):
+            kind = Names[str(line.thing)] if line.thing in Names.__members__ else kind
+            yield where.inside("labels", index), kind, line
 
 
 _PLAIN = frozenset({float, int, str, NoneType})

@@ -146,12 +146,6 @@ def read_source(source: Source, *, units: str | None = None, read: BlockReader =
     return reader.read(units)
 
 
-def _own_name(path: str) -> str:
-    """Return the name of a file without its folder, as `PurePath` does; `PurePath` is slow for many decks."""
-    name = path.rpartition("/")[2]
-    return PurePath(path).name if name in ("", ".") or "\\" in name or ":" in name else name
-
-
 def _lines(text: str, span: Span) -> list[str]:
     """Return the lines of a piece of text, without their ends."""
     lines = text[slice(*span)].replace("\r\n", "\n").removesuffix("\n").split("\n")
@@ -167,7 +161,7 @@ class _DeckReader:
         self.problems: list[Problem] = list(tree.source.problems)
         self.reported: Counter[str] = Counter()
         self.older = tree.source.name.lower().endswith(".das")
-        self.deck = Deck(tree.source.name, _own_name(tree.source.name), origin=self.origin)
+        self.deck = Deck(tree.source.name, PurePath(tree.source.name).name, origin=self.origin)
 
     def read(self, units: str | None) -> Deck:
         self._preamble()
@@ -208,11 +202,8 @@ class _DeckReader:
         """Return a block of DeepLines, in a text without sections and commas: *SOIL, *TRENCH, or spaced rows."""
         blocks = self.tree.preamble.blocks if not self.tree.sections and "," not in self.text else []
         own = [block for block in blocks if block.name.partition(" ")[0] in _DEEPLINES]
-        spaced = [block for block in blocks if any(map(_SPACED.match, map(self._text_of, block.leaves)))]
+        spaced = [block for block in blocks if any(_SPACED.match(self.text, *leaf.span) for leaf in block.leaves)]
         return own[0] if own else spaced[0] if len(spaced) > 1 else None
-
-    def _text_of(self, leaf: Leaf) -> str:
-        return self.text[leaf.span.start : leaf.span.end]
 
     def _stray(self, leaves: list[Leaf], where: str, *, title: bool = False) -> None:
         """Report all data lines of a place in one finding; they may be a `title` if no line looks like data."""
@@ -374,8 +365,7 @@ def units_of(deck: Deck) -> str:
 
     A file of user units is not metric if the density of its water is in t/m3: its forces are then in kN.
     """
-    at = deck.source.rfind(".")  # faster than a path, for many decks
-    suffix = deck.source[at:].lower() if at > 0 else ""
+    suffix = PurePath(deck.source).suffix.lower()
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]
     for _, block in deck.blocks("UNITS", "ANALYSIS"):

@@ -18,6 +18,7 @@ from types import MappingProxyType
 from typing import Final, NamedTuple, assert_never
 
 from mudline.basics.limits import LONGEST_TEXT
+from mudline.basics.short_repr import counted
 from mudline.language.diagnostics import Span
 from mudline.language.expression.parsing import (
     Brackets,
@@ -55,10 +56,10 @@ class Signature:
     def wants(self) -> str:
         """Number of arguments in words."""
         if self.most is None:
-            return f"at least {_arguments(self.least)}"
+            return f"at least {counted(self.least, 'argument')}"
         if self.most > self.least:
-            return f"{self.least} or {_arguments(self.most)}"
-        return _arguments(self.least)
+            return f"{self.least} or {counted(self.most, 'argument')}"
+        return counted(self.least, "argument")
 
     def takes(self, count: int) -> bool:
         """Return True if a call may have this number of arguments."""
@@ -70,10 +71,6 @@ class Function(Signature):
     """Function of numbers; `call` may raise ValueError, ZeroDivisionError or OverflowError, or return inf."""
 
     call: Callable[..., float]
-
-
-def _arguments(count: int) -> str:
-    return "1 argument" if count == 1 else f"{count} arguments"
 
 
 def _log(x: float, base: float = 10.0) -> float:

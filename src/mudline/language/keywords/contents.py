@@ -78,15 +78,8 @@ def _holds_keepers(slot: FieldSpec) -> bool:
     return any(map(keeps_lines, slot.parts))
 
 
-def kept_lines(part: Part) -> list[str]:
-    """Return the lines that a part and its inner parts keep."""
-    return [line for _, line in kept_places(part)]
-
-
 def kept_places(part: Part) -> Iterator[tuple[Path, str]]:
     """Yield the lines that a part and its inner parts keep, with their paths."""
-    if not keeps_lines(type(part)):
-        return
     inner = ((path, value) for path, _, value in part.walk(_holds_keepers) if isinstance(value, Part))
     for path, keeper in chain([((), part)], inner):
         for number, line in enumerate(getattr(keeper, "unread", ())):
@@ -199,12 +192,6 @@ def naming(what: Names | None, role: Role = "names") -> FieldFilter:
 def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
     """Return the kinds of objects that the fields of a part and its inner parts refer to or define."""
     return frozenset(kind for slot in fields_of(part) if (kind := getattr(slot.about, role)) is not None)
-
-
-@cache
-def gives_names(part: type[Part]) -> bool:
-    """Return True if a part, or an inner part, has fields for names."""
-    return any(map(_holds_name, fields_of(part)))
 
 
 def every_name_given(part: Part) -> list[tuple[Names, Role, str, Path]]:

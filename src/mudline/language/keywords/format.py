@@ -81,12 +81,10 @@ def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
     """Return the formats of the rows of records."""
     shapes: list[str] = []
     for schema in schemas:
-        lines = [slot for slot in schema.columns if slot.row]
-        plain = [slot for slot in schema.columns if not slot.row and slot.about.older is not True]
-        shapes += [record_schema(slot.row).layout for slot in lines if slot.row]
-        shapes += [record_schema(table.row).layout for table in schema.tables if table.row]
-        if plain and not lines:
-            shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
+        lines = [slot.row for slot in schema.columns if slot.row]
+        shapes += [record_schema(row).layout for row in (*lines, *(table.row for table in schema.tables)) if row]
+        if schema.layout and not lines:
+            shapes.append(schema.layout)
     return shapes
 
 

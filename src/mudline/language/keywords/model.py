@@ -75,7 +75,7 @@ class Rows(FieldInfo):
 
     def columns(self) -> list[Column]:
         """Return the columns of the table."""
-        return table_columns(self.row) if self.row else []
+        return record_schema(self.row).cells if self.row else []
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_plain_validator_function(
@@ -228,7 +228,7 @@ class ListRow(Row):
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         declared = record_schema(cls)
-        items = [cell_schema(Column(s.label, s.kind or Kind.REAL, s.required)) for s in declared.columns]
+        items = list(map(cell_schema, declared.cells))
         return {"type": "array", "prefixItems": items, "items": False, "minItems": declared.fewest}
 
 
@@ -354,6 +354,11 @@ class RecordSchema:
         return [slot.name for slot in (*self.columns, *self.tables)]
 
     @cached_property
+    def cells(self) -> list[Column]:
+        """Columns of a table whose rows have these fields."""
+        return [Column(slot.label, slot.kind or Kind.REAL, slot.required) for slot in self.columns]
+
+    @cached_property
     def fewest(self) -> int:
         """Least number of fields in a row."""
         return fewest_fields(slot.required for slot in self.columns)
@@ -439,9 +444,3 @@ def _cell(field: FieldSpec | None, table: Table, path: Path) -> tuple[FieldSpec 
     columns = record_schema(field.row).columns if field is not None and field.row else []
     row, column = (int(step) for step in path) if len(path) > 1 else (0, len(columns))
     return (columns[column], table.cell(row, column)) if column < len(columns) else (None, None)
-
-
-@cache
-def table_columns(row: type[Row]) -> list[Column]:
-    """Return the columns of a table whose rows are `row`."""
-    return [Column(slot.label, slot.kind or Kind.REAL, slot.required) for slot in record_schema(row).columns]

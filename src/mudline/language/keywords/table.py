@@ -269,14 +269,6 @@ def _finite(cell: float, row: int, column: int) -> float:
     return value
 
 
-def from_text(text: str, columns: Sequence[Column]) -> Table:
-    """Return a table from a text of rows, as YAML holds long tables; raises ValidationError for the first fault."""
-    table, faults = from_rows(read_rows(text, Span(0, len(text)), len(columns)), columns)
-    for (row, column), fault in sorted(faults.items()):
-        raise misfit(fault, row, *([column] if column >= 0 else []))
-    return table
-
-
 def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tuple[int, int], str]]:
     """Return a table from raw rows, and its faults by row and column (column -1: the whole row).
 
@@ -361,7 +353,10 @@ def read_table(rows: object, columns: Sequence[Column]) -> Table:
         rows.columns = columns
         return rows
     if isinstance(rows, str):
-        return from_text(rows, columns)
+        table, faults = from_rows(read_rows(rows, Span(0, len(rows)), len(columns)), columns)
+        for (row, column), fault in sorted(faults.items()):
+            raise misfit(fault, row, *([column] if column >= 0 else []))
+        return table
     if isinstance(rows, list) and set(map(type, rows)) <= {list}:
         return from_cells(rows, columns)
     if isinstance(rows, list | tuple | np.ndarray):

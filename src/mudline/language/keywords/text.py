@@ -81,8 +81,8 @@ def _number(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
 def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
     if label := Label.match(field.text):
         return label
-    braced = maybe_label(field.text)
-    if braced is None:
+    braced = Label.match("{" + field.text + "}")
+    if braced is None or not field.text[:1].isalpha() or not_finite(field.text):
         raise UnreadableError(not_a_number(field.text, field.span, slot.label, slot.kind))
     message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
     repair = Repair("unsafe", "put the label in braces", ((field.span, braced),))
@@ -93,13 +93,6 @@ def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
 def reads_as_name(text: str) -> bool:
     """Return True if a field for a number or a name takes this text for a name."""
     return is_one_field(text) and not maybe_number(text)
-
-
-def maybe_label(text: str) -> Label | None:
-    """Return a text without braces as a label, if it begins with a letter and is not a NaN or infinity."""
-    if not text[:1].isalpha() or not_finite(text):
-        return None
-    return Label.match("{" + text + "}")
 
 
 def shown(text: str) -> str:

@@ -264,7 +264,9 @@ def locator(text: str, root: yaml.Node | None) -> Locate:
             if below is None:
                 if isinstance(node, yaml.ScalarNode) and node.style == "|" and isinstance(part, int):
                     first = source.position(node.start_mark.index)[0] + 1
-                    rows[id(node)] = rows.get(id(node)) or _row_lines(node, first)
+                    if id(node) not in rows:
+                        lines = enumerate(node.value.split("\n"), first)
+                        rows[id(node)] = [number for number, line in lines if line.strip()]  # a blank line is not a row
                     number = next(iter(rows[id(node)][part : part + 1]), first)
                     return Range(number, 1, number, 1)
                 break
@@ -272,8 +274,3 @@ def locator(text: str, root: yaml.Node | None) -> Locate:
         return Range(*source.position(node.start_mark.index), *source.position(node.end_mark.index))
 
     return locate
-
-
-def _row_lines(block: yaml.ScalarNode, first: int) -> list[int]:
-    """The lines of the rows of a table that is a block of text, from its first; blank lines are not rows."""
-    return [first + number for number, line in enumerate(block.value.split("\n")) if line.strip()]
