@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import cache
+from itertools import accumulate
 from typing import NamedTuple
 
 _PIECE = re.compile(r"(?P<stars>\*+)|\?|\[(?P<not>[!^]?)(?P<set>\]?(?:\\.|[^]\\])*)\]|\\(?P<plain>.)|(?P<other>.)")
@@ -30,21 +31,10 @@ class PathPattern(NamedTuple):
     negated: bool
     folders_only: bool
 
-    def ends(self, path: str) -> Iterator[int]:
-        """Yield the end of each leading part of a path that matches: folders from the top, then the path itself."""
-        start = 0
-        for name in path.split("/"):
-            end = start + len(name)
-            if (end < len(path) or not self.folders_only) and self._fits(path, start, end):
-                yield end
-            start = end + 1
-
     def fits(self, path: str, *, folder: bool) -> bool:
-        """Return True if the path itself matches."""
-        return (folder or not self.folders_only) and self._fits(path, path.rfind("/") + 1, len(path))
-
-    def _fits(self, path: str, start: int, end: int) -> bool:
-        return self.expression.fullmatch(path, 0 if self.whole else start, end) is not None
+        """Return True if the path itself matches, not only a folder above it."""
+        start = 0 if self.whole else path.rfind("/") + 1
+        return (folder or not self.folders_only) and self.expression.fullmatch(path, start) is not None
 
 
 @cache
@@ -67,10 +57,14 @@ def matches(path: str, lines: Iterable[str]) -> bool:
 
     For each folder or file the last matching pattern decides.
     """
-    verdicts: dict[int, bool] = {}
-    for pattern in filter(None, map(read_pattern, lines)):
-        verdicts.update(dict.fromkeys(pattern.ends(path), not pattern.negated))
-    return any(verdicts.values())
+    patterns = list(filter(None, map(read_pattern, lines)))
+    above = accumulate(path.split("/"), "{}/{}".format)
+    return any(hides(reversed(patterns), part, folder=part != path) for part in above)
+
+
+def hides(patterns: Iterable[PathPattern], path: str, *, folder: bool) -> bool | None:
+    """Return True if the first of the patterns that matches a path is not negated; None if no pattern matches."""
+    return next((not pattern.negated for pattern in patterns if pattern.fits(path, folder=folder)), None)
 
 
 def _without_trailing_spaces(text: str) -> str:

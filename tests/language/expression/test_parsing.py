@@ -9,8 +9,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.basics.limits import DEEPEST, LONGEST_EQUATION
+from mudline.language.diagnostics import Span
 from mudline.language.expression.evaluation import FORMS, FUNCTIONS, evaluate
-from mudline.language.expression.parsing import Expression, ExpressionError, NameSpan, parse
+from mudline.language.expression.parsing import Expression, ExpressionError, Name, parse
 
 
 def test_text_names_and_functions_are_kept_as_written() -> None:
@@ -18,7 +19,7 @@ def test_text_names_and_functions_are_kept_as_written() -> None:
     assert expression.text == "if(Gravity<10, Depth, Depth*LengthFactor) + MAX(depth, Max(1, 2))"
     assert expression.names == ("Gravity", "Depth", "LengthFactor", "depth")
     assert expression.functions == ("if", "MAX", "Max")
-    assert expression.name_spans[:2] == (NameSpan("Gravity", 3, 10), NameSpan("Depth", 15, 20))
+    assert expression.uses[:2] == (Name(Span(3, 10), "Gravity"), Name(Span(15, 20), "Depth"))
 
 
 @pytest.mark.parametrize(

@@ -82,13 +82,11 @@ def _section(section: Section) -> Document:
     document: Document = {"name": section.name} | _comments(section.comments)
     if section.lines:
         document["lines"] = section.lines
-    document["blocks"] = [_block(block) for block in section.blocks]
+    document["blocks"] = [
+        {"keyword": block.keyword, **block.model_dump(exclude={"keyword"}, exclude_unset=True, context=AS_TABLES)}
+        for block in section.blocks
+    ]
     return document
-
-
-def _block(block: Block | Opaque) -> Document:
-    values = block.model_dump(exclude={"keyword"}, exclude_unset=True, context=AS_TABLES)
-    return {"keyword": block.keyword, **values}
 
 
 def _comments(comments: list[Comment]) -> Document:

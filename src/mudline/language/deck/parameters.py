@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from types import NoneType
 from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
 
 from mudline.basics.spelling import Effort
@@ -137,9 +136,8 @@ class Parameters:
     def evaluate(self, equation: Equation, where: Where) -> Value:
         """Return the value of an equation; raises NoValueError with the problem, placed at `where`."""
         expression = self._parse(equation, where)
-        for name, _, _ in expression.name_spans:
-            if folded(name) in self.failed:
-                raise NoValueError
+        if any(folded(use.name) in self.failed for use in expression.uses):
+            raise NoValueError
         return self._value(expression, where)
 
     def _define(self, parameter: Parameter, where: Where) -> None:
@@ -206,7 +204,7 @@ class Parameters:
         except NoValueError as reason:
             self._fail(name, reason.problem)
             return False
-        used = [folded(use.name) for use in expression.name_spans]
+        used = [folded(use.name) for use in expression.uses]
         definition.used = [key for key in used if key in self.definitions]
         return True
 
@@ -309,7 +307,6 @@ def _label_lines(deck: Deck) -> Iterator[tuple[Where, Names, LabelLine]]:
             yield where.inside("labels", index), kind, line
 
 
-_PLAIN = frozenset({float, int, str, NoneType})
 EvaluatedDeck = NewType("EvaluatedDeck", Deck)
 """Deck without equations in the sections of the model and of the analysis; created only by `evaluated`.
 
@@ -359,9 +356,7 @@ class _Evaluator:
         changed: dict[str, object] = {}
         kind: type[Part] = type(part)
         for slot in record_schema(kind).slots:
-            value = part.__dict__[slot.name]  # faster than `getattr` of a model
-            if type(value) in _PLAIN:
-                continue
+            value = getattr(part, slot.name)
             new = self._value(value, slot, (*path, slot.order if slot.of_list else slot.json))
             if new is not value:
                 changed[slot.name] = new

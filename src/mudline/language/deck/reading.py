@@ -142,8 +142,7 @@ class TextOrigin(Origin):
 
 def read_source(source: Source, *, units: str | None = None, read: BlockReader = read_block) -> Deck:
     """Return the deck of a keyword text, as far as it can be read; its faults are in `problems`."""
-    reader = _DeckReader(parse(source), read)
-    return reader.read(units)
+    return _DeckReader(parse(source), read).read(units)
 
 
 def _lines(text: str, span: Span) -> list[str]:
@@ -173,9 +172,6 @@ class _DeckReader:
         self.deck.units = units or units_of(self.deck)
         return self.deck
 
-    def _lines(self, span: Span) -> list[str]:
-        return _lines(self.text, span)
-
     def _preamble(self) -> None:
         preamble = self.tree.preamble
         if self.tree.source.readable:
@@ -196,7 +192,7 @@ class _DeckReader:
                 self.problems.append(Problem(SYN007, message, span))
         first = self.tree.sections[0].head if self.tree.sections else None
         end = first.span.start if first else len(self.text)
-        self.deck.preamble = self._lines(Span(0, end)) if end else []
+        self.deck.preamble = _lines(self.text, Span(0, end)) if end else []
 
     def _of_deeplines(self) -> RawBlock | None:
         """Return a block of DeepLines, in a text without sections and commas: *SOIL, *TRENCH, or spaced rows."""
@@ -211,9 +207,9 @@ class _DeckReader:
         if data:
             first = data[0].span
             end = self.text.find("\n", *first)
-            count = sum(len(self._lines(leaf.span)) for leaf in data)
+            count = sum(len(_lines(self.text, leaf.span)) for leaf in data)
             place = trimmed(self.text, first.start, first.end if end < 0 else end)
-            title = title and not any(_DATA.match(line) for leaf in data for line in self._lines(leaf.span))
+            title = title and not any(_DATA.match(line) for leaf in data for line in _lines(self.text, leaf.span))
             lines = counted(count, "line")
             message = f"{lines} {where} under no keyword: not read; write a title as a comment, C and a space"
             if self._reports(SYN011, place, None):
@@ -227,7 +223,7 @@ class _DeckReader:
             self._unknown_section(raw.name, Where(index))
         self._stray(raw.leaves, f"of ${raw.name}", title=not known)
         for leaf in raw.leaves:
-            line = self._lines(leaf.span)
+            line = _lines(self.text, leaf.span)
             if leaf.kind is LeafKind.COMMENT:
                 section.comments.append(Comment(before=0, text=line[0][1:]))
             elif leaf.kind is not LeafKind.BLANK:

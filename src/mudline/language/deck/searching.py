@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 from stat import S_ISREG
 from typing import NamedTuple
 
-from mudline.basics.patterns import PathPattern, read_pattern
+from mudline.basics.patterns import PathPattern, hides, read_pattern
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.syntax.source import KEY_FILE
@@ -85,7 +85,7 @@ class _Rules(NamedTuple):
     def hides(self, path: str, *, folder: bool) -> bool | None:
         """Return True if a path from the searched directory is hidden; None if no pattern matches."""
         own = self.above + path[self.below :]
-        return next((not pattern.negated for pattern in self.patterns if pattern.fits(own, folder=folder)), None)
+        return hides(self.patterns, own, folder=folder)
 
 
 @dataclass(slots=True, eq=False)

@@ -187,17 +187,13 @@ def arithmetic(operator: str, left: EvaluatedPart, right: EvaluatedPart) -> Eval
     """Return the sum, difference, product or quotient of two numbers; + also joins two texts."""
     whole = _across(left, right)
     if operator == "+" and isinstance(left.value, str) and isinstance(right.value, str):
-        return EvaluatedPart(_joined(left.value, right.value, whole), whole)
+        if len(left.value) + len(right.value) > LONGEST_TEXT:
+            raise EvaluationError(f"the text would be longer than {LONGEST_TEXT} characters", *whole)
+        return EvaluatedPart(left.value + right.value, whole)
     a, b = left.number, right.number
     if operator == "/" and b == 0.0:
         raise EvaluationError("division by zero", *right.span)
     return EvaluatedPart(finite(ARITHMETIC[operator](a, b), whole), whole)
-
-
-def _joined(left: str, right: str, span: Span) -> str:
-    if len(left) + len(right) > LONGEST_TEXT:
-        raise EvaluationError(f"the text would be longer than {LONGEST_TEXT} characters", *span)
-    return left + right
 
 
 def power(base: EvaluatedPart, exponent: EvaluatedPart) -> float:

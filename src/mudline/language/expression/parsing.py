@@ -140,34 +140,26 @@ class Call(NamedTuple):
 Node = Number | Text | Name | Brackets | Prefix | Power | Relation | OperatorChain | Logical | Call
 
 
-class NameSpan(NamedTuple):
-    """Use of a parameter: its name as written, and its place, a half-open range of code points."""
-
-    name: str
-    start: int
-    end: int
-
-
 class Expression(NamedTuple):
     """Equation that has been read.
 
     Attributes:
         text: the text between `=[` and `]`.
-        name_spans: every use of a name that is not a function, in the order of the text; constants such as `pi` are
+        uses: every use of a name that is not a function, in the order of the text; constants such as `pi` are
             included, since a parameter may have that name.
         functions: the functions called, as written, each spelling once, in the order of the text.
         root: the equation as a tree of parts.
     """
 
     text: str
-    name_spans: tuple[NameSpan, ...]
+    uses: tuple[Name, ...]
     functions: tuple[str, ...]
     root: Node
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names in `name_spans`, each spelling once, in the order of first use."""
-        return tuple(dict.fromkeys(use.name for use in self.name_spans))
+        """Names in `uses`, each spelling once, in the order of first use."""
+        return tuple(dict.fromkeys(use.name for use in self.uses))
 
 
 SAME_OPERATOR = {"==": "=", "!=": "<>"}
@@ -196,11 +188,11 @@ def parse(text: str) -> Expression:
         raise _unexpected_token(text, error.token, _accepted(error)) from None
     except UnexpectedCharacters as error:
         raise _unexpected_character(text, cast("int", error.pos_in_stream), _accepted(error)) from None
-    names: list[NameSpan] = []
+    names: list[Name] = []
     functions: dict[str, None] = {}
     for node in _nodes(text, root):
         if isinstance(node, Name):
-            names.append(NameSpan(node.name, *node.span))
+            names.append(node)
         elif isinstance(node, Call):
             functions[node.name] = None
     return Expression(text, tuple(names), tuple(functions), root)

@@ -17,7 +17,6 @@ from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Pat
 from mudline.language.keywords.parsed import Item, ParsedRecord, Places, TableBuilder
 from mudline.language.keywords.table import Table, fewest_fields, row_format
 from mudline.language.keywords.text import (
-    MIXED_FIELDS,
     UnreadableError,
     Value,
     cut_number,
@@ -359,7 +358,7 @@ class Builder:
     def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> list[Field]:
         """Return the fields without trailing empty ones; report a wrong number of fields."""
         columns = columns if self.older else [slot for slot in columns if slot.about.older is not True]
-        required = [slot.required for slot in columns]
+        required, kinds = [slot.required for slot in columns], [slot.kind for slot in columns]
         fewest = fewest_fields(required)
         if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
             fields = self._apart(fields[0])
@@ -368,18 +367,16 @@ class Builder:
         if len(columns) > 1 and (problem := semicolons(self.text, fields)):
             self.problems.append(problem)
             return fields[:1]
-        if len(columns) > 1 and (problem := missing_comma(fields, [slot.kind for slot in columns], fewest)):
+        if len(columns) > 1 and (problem := missing_comma(fields, kinds, fewest)):
             self.problems.append(problem)
             return [field for field in fields[:1] if field.span != problem.span]
         if fewest <= len(fields) <= len(columns):
-            if len(fields) >= MIXED_FIELDS and (
-                problem := mixed_commas(fields, [slot.kind for slot in columns], fewest)
-            ):
+            if problem := mixed_commas(fields, kinds, fewest):
                 self.problems.append(problem)
             return fields
         if self.unclosed:  # the open bracket contains the missing fields
             return fields[: len(columns)]
-        if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
+        if problem := decimal_comma(fields, kinds, fewest):
             self.problems.append(problem)
             return fields[: len(columns)]
         expected = row_format([slot.label for slot in columns], required)

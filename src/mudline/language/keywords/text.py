@@ -20,7 +20,7 @@ from mudline.language.syntax.rows import blank_separated, read_number, spells_nu
 
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
-MIXED_FIELDS = 4
+_MIXED_FIELDS = 4
 """Least number of fields in a row with decimal commas among other commas: shorter rows are ambiguous."""
 _WHOLE = re.compile(r"[-+]?[0-9]+")
 _DECIMAL = re.compile(r"[-+]?[0-9]+,[0-9]+(?:[eEdD][-+]?[0-9]+)?")
@@ -190,8 +190,8 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
     A single comma without space may be a slip. It is a decimal comma if the second part begins with a zero, or all
     other numbers have a point. Several such commas in place of real numbers are decimal commas.
     """
-    tight = [_is_tight(first, second) for first, second in pairwise(values)]
-    if len(values) < MIXED_FIELDS or not any(tight) or all(tight):
+    tight = [len(values) >= _MIXED_FIELDS and _is_tight(*pair) for pair in pairwise(values)]
+    if not any(tight) or all(tight):
         return None
     pairs = [at for at, joined in enumerate(tight) if joined]
     alone = all(later - at > 1 for at, later in pairwise(pairs))

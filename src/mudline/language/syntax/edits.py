@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 from itertools import accumulate, islice
 from typing import NamedTuple
 
@@ -16,8 +15,7 @@ from mudline.language.syntax.source import Source
 _LONE_LF = re.compile(r"(?<!\r)\n")
 
 
-@dataclass(frozen=True, slots=True)
-class TextEdit:
+class TextEdit(NamedTuple):
     """Replacement of `span` by `text`; offsets are those of the text before any edit, an empty span inserts."""
 
     span: Span
@@ -100,7 +98,7 @@ class Undoing:
 def with_line_ends(source: Source, edits: Iterable[TextEdit]) -> list[TextEdit]:
     """Return the edits with each LF in their texts replaced by the line end of the nearest line before (CRLF stays)."""
     return [
-        replace(edit, text=_LONE_LF.sub(line_end_before(source, edit.span.start), edit.text))
+        edit._replace(text=_LONE_LF.sub(line_end_before(source, edit.span.start), edit.text))
         if "\n" in edit.text
         else edit
         for edit in edits

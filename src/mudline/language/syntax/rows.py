@@ -30,7 +30,6 @@ PIECE = 256 * 1024
 """Number of characters that are read at a time: their arrays stay in the fast memory of a processor."""
 _FEW = 1024
 """Number of characters of lines that are read field by field, if not all are numbers."""
-_KEPT_BACK = 1 << 22
 _IN_NUMBERS = b"0123456789+-.eE \t\r"
 _D_TO_E = bytes.maketrans(b"dD", b"EE")
 _SIGNED_ZERO = re.compile(rb"-0(?![.eE])(?<![eE]-0)")
@@ -162,16 +161,10 @@ def stacked(parts: Sequence[RawRows]) -> RawRows:
 
 
 def _pieces(text: str, span: Span) -> Iterator[Span]:
-    """Yield spans of whole lines of about `PIECE` characters each, without the line end of the last line.
-
-    A large block is allocated and freed first: afterwards a C library keeps smaller freed blocks for reuse. Otherwise
-    the system would have to clear new memory for every array of a piece.
-    """
+    """Yield spans of whole lines of about `PIECE` characters each, without the line end of the last line."""
     start, end = span
     while end > start and text[end - 1] in "\r\n":
         end -= 1
-    if end - start > PIECE:
-        np.empty(_KEPT_BACK, np.uint8)
     while start < end:
         stop = text.find("\n", min(start + PIECE, end), end)
         stop = end if stop < 0 else stop

@@ -144,10 +144,9 @@ def _in_equations(origin: TextOrigin) -> Iterator[Occurrence]:
             read = parse(text[start + 2 : end - 1])
         except ExpressionError:
             continue
-        for name, first, last in read.name_spans:
+        for place, name in read.uses:
             if folded(name) not in CONSTANTS:
-                span = Span(start + 2 + first, start + 2 + last)
-                yield Occurrence(thing(Names.PARAMETER, name), name, span, defines=False)
+                yield Occurrence(thing(Names.PARAMETER, name), name, place.moved(start + 2), defines=False)
 
 
 def _placeholders(origin: TextOrigin) -> Iterator[Occurrence]:
