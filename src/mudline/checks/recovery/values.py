@@ -33,8 +33,7 @@ from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.rows import NUMBER
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.references import CURVES, THINGS, undefined
-from mudline.model.scene.rules.fields import REF019
-from mudline.model.scene.rules.laws import REF002, undefined_curve
+from mudline.model.scene.rules.fields import REF002, REF019, undefined_curve
 from mudline.model.scene.sets import ALL
 
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})

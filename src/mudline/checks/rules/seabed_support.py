@@ -18,7 +18,7 @@ from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
-from mudline.model.scene.rules.laws import SBD004
+from mudline.model.scene.rules.fields import SBD004
 from mudline.model.scene.seabed import SeabedKind, survey_of
 from mudline.model.scene.vertical_axis import FLAT, NEAR
 

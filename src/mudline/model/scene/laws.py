@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, cast
+from functools import wraps
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.language.deck.parameters import folded
-from mudline.language.diagnostics import Where
+from mudline.language.diagnostics import Code, Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
+from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve, set_name
@@ -331,3 +333,24 @@ def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Exten
             [entry for _, entry, _, _ in found], [where for where, *_ in found], holders, later_wins(holders, count)
         )
     return extensions
+
+
+def rule_of_extension(
+    code: Code, keyword: str, *, blocks: bool = True
+) -> Callable[[Callable[[Any, Extension], Iterator[Problem]]], object]:
+    """Return a decorator that makes a rule of a function of a resolved deck and its blocks of an extension keyword.
+
+    A rule that only advises (`blocks` False) has the scene of the deck. Nothing is reported in decks without blocks.
+    """
+
+    def register(find: Callable[[Any, Extension], Iterator[Problem]]) -> object:
+        @rule(code, blocks=blocks)
+        @wraps(find)
+        def check(subject: Any) -> Iterable[Problem]:  # noqa: ANN401 - as the function of any rule
+            scene = subject if blocks else subject.scene
+            extension = scene.extensions.get(keyword)
+            return find(scene, extension) if extension else ()
+
+        return check
+
+    return register

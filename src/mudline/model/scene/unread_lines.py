@@ -224,7 +224,7 @@ class _Looking:
         key, kinds = name_key(name), (*CURVES, Names.CURVE)
         definers = {keyword for kind in kinds for keyword in catalogue.definers(kind)}
         if key not in self.curves and key not in self._other_words and self.context.unread.isdisjoint(definers):
-            from mudline.model.scene.rules.laws import REF002  # noqa: PLC0415 - only for a finding
+            from mudline.model.scene.rules.fields import REF002  # noqa: PLC0415 - only for a finding
 
             meant = self.context.hint(name, self.curves)
             message = f"curve {shown(name)} is not defined{meant}: correct the name, or define it"

@@ -10,14 +10,15 @@ import numpy as np
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.unknown import is_partly_unknown
 from mudline.model.scene.deck_values import number
+from mudline.model.scene.laws import Extension, rule_of_extension
 from mudline.model.scene.numbering import Floats, Mask
-from mudline.model.scene.rules.extensions import of_elements, rule_of_extension
-from mudline.model.scene.rules.laws import extends_rigid, lacks_diameter
+from mudline.model.scene.rules.extensions import of_elements
+from mudline.model.scene.rules.fields import lacks_diameter
+from mudline.model.scene.rules.seabed import extends_rigid
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_lateral import FrictionSet, TrenchSet
     from mudline.model.contact.input import LawAssignment
-    from mudline.model.scene.laws import Extension
     from mudline.model.scene.resolved import ResolvedDeck
 
 
