@@ -29,7 +29,7 @@ from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.model.scene.references import CURVES, THINGS, HeldNodes, held_nodes, undefined
+from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import (
     SectionTable,
@@ -169,11 +169,6 @@ class ResolvedDeck:
         missing = any(each.lacks for each in self.noticed) or not self.referenced <= curves
         others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
         return missing or clashing or bool(self.context.excused) or any(True for _ in others)
-
-    @cached_property
-    def held(self) -> list[HeldNodes]:
-        """Nodes that each line of `*BOUNDARY` in the deck itself holds."""
-        return list(held_nodes(self.deck, self.nodes))
 
     @cached_property
     def referenced(self) -> set[str]:

@@ -1,4 +1,4 @@
-"""Element sets: lists, ranges and subsets as indices of elements; names are compared without case."""
+"""Element sets: lists, ranges and subsets as indices of elements; names, compared without case, and their check."""
 
 from __future__ import annotations
 
@@ -11,11 +11,15 @@ import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF001, REF005, REF008, REF009, REF010
-from mudline.language.deck.parameters import folded, name_key
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.diagnostics import Problem, Severity, Where
-from mudline.language.keywords.contents import set_slots
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import names_given, set_slots
 from mudline.language.keywords.text import advice_on, shown
 from mudline.language.keywords.unknown import is_partly_unknown, known_name
+from mudline.language.keywords.values import Names
+from mudline.language.syntax.fields import canonical_key
 from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import Indices, Numbered, distinct
 
@@ -114,6 +118,43 @@ def read_sets(context: Context, elements: Numbered, external: ExternalElements |
         known = sets.named.setdefault(folded(name), NamedSet(name, _NOTHING, None))
         known.elements = np.union1d(known.elements, elements.indices(ids))
     return sets
+
+
+def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
+    """Report undefined names of sets; those in soil springs only with `with_soil`.
+
+    Postprocessing may have its own sets in addition to those of the model.
+    """
+    own: dict[str, str] | None = None
+    for name, where in ((use.name, use.where) for use in context.names[Names.SET].used):
+        section = context.deck.sections[where.section]
+        if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
+            continue
+        if section.name not in _OF_THE_MODEL and sets.find(name) is None:
+            own = sets_of_postprocessing(context.deck) if own is None else own
+            if name_key(name) in own or not context.deck.keywords():
+                continue
+        sets.check(name, where)
+
+
+_OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
+
+
+def sets_of_postprocessing(deck: Deck) -> dict[str, str]:
+    """Return the sets that sections other than the model define, by their folded names."""
+    sections = (section for section in deck.sections if section.name not in _OF_THE_MODEL)
+    names = (name for section in sections for block in section.blocks for name in _sets_defined_by(block))
+    return {name_key(name): bare(name) for name in names}
+
+
+def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
+    if not isinstance(block, Opaque):
+        yield from (name for _, name in names_given(block, Names.SET, "defines"))
+    elif block.keyword in catalogue.definers(Names.SET):
+        for line in block.lines:
+            key, equals, name = line.partition("=")
+            if equals and canonical_key(key) == Names.SET.name:
+                yield name
 
 
 class _SetReader:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.language.codes.references import REF015
+from mudline.language.codes.references import REF002, REF015, REF019
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_have_no_length
@@ -258,9 +258,6 @@ def lacks_diameter(scene: ResolvedDeck, code: Code, message: str, where: Where) 
     return replace(scene.context.missing(code, message, where, "GEOMETRIC SETS"), blocks=Blocks.ALWAYS)
 
 
-REF019 = Code("REF019", "undefined-name", Severity.ERROR)
-
-
 @rule(REF019, blocks=True)
 def undefined_name(scene: ResolvedDeck) -> Iterator[Problem]:
     """A name is used that the deck does not define: of a vessel, a line, a vector or another object.
@@ -304,9 +301,6 @@ def _cables(scene: ResolvedDeck) -> Iterator[Problem]:
                     message = f"cable {cable:g} is not defined: define it in *CABLE, or correct the number"
                     severity = Severity.WARNING if doubt else None
                     yield Problem(REF019, message, None, severity, at, blocks=Blocks.NEVER, lacks=f"{cable:g}")
-
-
-REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
 
 
 @rule(REF002, blocks=True)
