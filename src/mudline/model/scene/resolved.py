@@ -162,6 +162,11 @@ class ResolvedDeck:
         return any(map(catalogue.gives_laws, self.context.unread))
 
     @property
+    def shows_elements(self) -> bool:
+        """True if the deck shows all elements that its laws are for: none come from `*LINES` or another deck."""
+        return bool(len(self.element_ids)) and not self.set_table.everything.open
+
+    @property
     def lacks(self) -> bool:
         """True if the deck uses something that it does not define, or gives a curve two forces at one ratio."""
         curves = {folded(each.name) for each in self.laws.curves if not each.embedment}
