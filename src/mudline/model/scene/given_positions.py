@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,13 +11,14 @@ from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted
 from mudline.language.codes.contact import RUN006, RUN007, RUN008
 from mudline.language.diagnostics import Code, Where
-from mudline.model.contact.arrays import Positions
-from mudline.model.contact.input import ContactInput
-from mudline.model.scene.csv_file import data_error
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
+
+if TYPE_CHECKING:
+    from mudline.model.contact.arrays import Positions
+    from mudline.model.contact.input import ContactInput
 
 FLAT = 0.01
 """Share of the water depth by which the X of nodes may differ in a line that is upright along Z."""
@@ -118,6 +119,8 @@ def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
         f"{shown(float(scene.length[first]))} ({len(off)} of {counted(len(known), 'element')} differ by over "
         f"{GROSS[0]:g} times); sort them, or give their numbers in a CSV, or in the array node of an NPZ"
     )
+    from mudline.model.scene.csv_file import data_error  # noqa: PLC0415 - checking a deck does without it
+
     raise data_error(file, message)
 
 
