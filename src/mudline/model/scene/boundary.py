@@ -80,18 +80,12 @@ def held_nodes(deck: EvaluatedDeck, nodes: Numbered) -> Iterator[HeldNodes]:
     Lines whose form is not public are left out.
     """
     for place, entry, values in _conditions(deck.blocks(KEYWORD, "LOAD CASE")):
-        numbers: tuple[Any, ...]
         if values is None:
             numbers, dof, value, where = (entry.node, entry.node, 1), entry.dof, entry.value, place.inside("dof")
         else:
             at, step = freedom_and_step(values)
-            fields = (values.third, values.fourth, values.fifth, None)
-            numbers, dof, value, where = (
-                (values.start, values.end, cast("Any", step)),
-                fields[at - 2],
-                fields[at - 1],
-                place,
-            )
+            numbers, where = (values.start, values.end, step), place
+            dof, value = (values.third, values.fourth, values.fifth)[at - 2 : at]
         whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
         if whole and numbers[2] > 0 and dof in FREEDOMS:
             yield HeldNodes(where, int(cast("int", dof)), nodes.between(*numbers), (value or 0.0, entry.fixation))
@@ -127,7 +121,7 @@ def _check_freedom(context: Context, freedom: object, where: Where) -> None:
         context.report(SYN005, f"{freedom} is not a degree of freedom: {expected}", where)
 
 
-def freedom_and_step(values: FixedValues) -> tuple[int, object]:
+def freedom_and_step(values: FixedValues) -> tuple[int, Any]:
     """Return the index of the degree of freedom in a GEN=, counted from 0, and the increment.
 
     With four values the third is the degree of freedom only if the fourth cannot be.

@@ -20,12 +20,11 @@ from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.model import Block, FieldSpec, Part, Row, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.unknown import known_name
 from mudline.language.keywords.values import Names
 from mudline.language.keywords.writer import field_text
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.sections import read_surroundings
 
 if TYPE_CHECKING:
     from mudline.model.curves import ForceCurve
@@ -117,11 +116,6 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve], l
     return named, by_set, [_below_surface(context, curve) if curve.kind == OF_CURRENT else curve for curve in others]
 
 
-def set_name(name: str | None) -> str | None:
-    """Return the name that a SET= of a seabed law gives: ALL without a SET=, None if it could not be read."""
-    return "ALL" if name is None else known_name(name)
-
-
 def _made(context: Context, given: SceneCurve) -> SceneCurve:
     """Return a curve with the curve that its points form.
 
@@ -175,8 +169,7 @@ def _below_surface(context: Context, curve: SceneCurve) -> SceneCurve:
     if curve.axes[0] == _DOWN[0]:
         low = max(low, 0.0)
     elif curve.units[0] == "L":
-        oceans = [block for _, block in context.blocks("OCEAN")]
-        depth = number(oceans[-1], "depth", inf) if oceans else inf
+        depth = read_surroundings(context.deck).depth
         high = min(high, depth) if depth > low else high
     return curve._replace(reach=(low, high))
 

@@ -18,13 +18,13 @@ from mudline.language.keywords.unknown import UNKNOWN, is_partly_unknown, known_
 from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
-from mudline.model.scene.curves import SceneCurve, set_name
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, marked, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties, SeabedSet
+    from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties
     from mudline.language.keywords.model import Record
 
 
@@ -162,11 +162,12 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
             laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
         if not properties.sets and is_partly_unknown(properties.sets):
             laws.gaps.append(where)
-        gaps = [where.inside("sets", index) for index, entry in enumerate(properties.sets) if _has_gap(entry)]
-        laws.gaps += gaps
         for index, entry in enumerate(properties.sets):
             place = where.inside("sets", index)
-            name = set_name(entry.set_name)
+            values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
+            if UNKNOWN in values and None not in values:  # a line that could not be used may be another SET=
+                laws.gaps.append(place)
+            name = "ALL" if entry.set_name is None else known_name(entry.set_name)
             holder = (None if name is None else sets.find(name)) or _unknown(name)
             stiffness, written = entry.stiffness, place.inside("stiffness")
             if isinstance(stiffness, str):
@@ -181,12 +182,6 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
             else:
                 value = float(stiffness)
                 yield SetLaw(LawKind.LINEAR, holder, written, "new", value, unknown=not value >= 0)
-
-
-def _has_gap(entry: SeabedSet) -> bool:
-    """Return True if a line below a SET= could not be used; it may be another SET=."""
-    values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
-    return UNKNOWN in values and None not in values
 
 
 class ResistanceValues(NamedTuple):

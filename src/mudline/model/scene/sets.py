@@ -125,16 +125,13 @@ def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
 
     Postprocessing may have its own sets in addition to those of the model.
     """
-    own: dict[str, str] | None = None
+    own = sets_of_postprocessing(context.deck)
     for name, where in ((use.name, use.where) for use in context.names[Names.SET].used):
         section = context.deck.sections[where.section]
         if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue
-        if section.name not in _OF_THE_MODEL and sets.find(name) is None:
-            own = sets_of_postprocessing(context.deck) if own is None else own
-            if name_key(name) in own or not context.deck.keywords():
-                continue
-        sets.check(name, where)
+        if section.name in _OF_THE_MODEL or not (name_key(name) in own or not context.deck.keywords()):
+            sets.check(name, where)
 
 
 _OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
@@ -172,7 +169,16 @@ class _SetReader:
         everything = np.arange(len(self.elements), dtype=np.intp)
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
         for where, block in context.blocks("ELEMENT SETS"):
-            self._collect(cast("ElementSets", block).sets, where)
+            for index, entry in enumerate(cast("ElementSets", block).sets):
+                place = where.inside("sets", index)
+                name = known_name(entry.name)
+                if name is None:
+                    context.unread.add("ELEMENT SETS")
+                elif name_key(name) == ALL:
+                    message = "set ALL is predefined and holds every element: choose another name"
+                    context.report(REF009, message, place.inside("name"))
+                else:
+                    self.definitions.setdefault(name_key(name), []).append((entry, place))
         for key, name in context.opaque_set_names.items():
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
@@ -180,21 +186,6 @@ class _SetReader:
             if key not in named:
                 self._expand(key)
         return self.sets
-
-    def _collect(self, entries: Sequence[ElementSet], block: Where) -> None:
-        """Collect the sets of a block by their names."""
-        for index, entry in enumerate(entries):
-            where = Where(block.section, block.block, ("sets", index))
-            name = known_name(entry.name)
-            if name is None:
-                self.context.unread.add("ELEMENT SETS")
-                continue
-            key = name_key(name)
-            if key == ALL:
-                message = "set ALL is predefined and holds every element: choose another name"
-                self.context.report(REF009, message, where.inside("name"))
-                continue
-            self.definitions.setdefault(key, []).append((entry, where))
 
     def _expand(self, key: str) -> None:
         """Expand a set after its subsets, with an explicit stack, as chains may be long."""

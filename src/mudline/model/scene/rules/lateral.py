@@ -235,8 +235,11 @@ def bad_breakout(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]
                 message = f"{name.upper()}= has no effect under LATERAL=COULOMB: write LATERAL=PEAK-RESIDUAL or F114"
                 yield Problem(EXT013, message, None, Severity.WARNING, where.inside(name))
             continue
-        for name, message in _breakout_faults(friction):
+        for name, message in () if is_partly_unknown(friction) else _breakout_faults(friction):
             yield Problem(EXT013, message, where=where.inside(name))
+        if friction.criterion == "ELLIPSE":
+            message = "a breakout across the line has no ellipse: write CRITERION=BOX"
+            yield Problem(EXT013, message, where=where.inside("criterion"))
         if trench is not None:
             words = "a trench too, whose resistance a breakout excludes: remove one of the two"
             problem = Problem(EXT013, words, where=where.inside("lateral"))
@@ -254,9 +257,7 @@ def _breakout_faults(friction: FrictionSet) -> Iterator[tuple[str, str]]:
     (peak, at), (residual, end) = (
         (number(part, "factor"), number(part, "displacement")) for part in (friction.peak, friction.residual)
     )
-    if is_partly_unknown(friction):
-        pass
-    elif friction.lateral == "F114":
+    if friction.lateral == "F114":
         if np.isnan(peak):
             yield "lateral", "LATERAL=F114 needs the factor at breakout: give PEAK="
         if friction.residual is not None or not np.isnan(at):
@@ -268,5 +269,3 @@ def _breakout_faults(friction: FrictionSet) -> Iterator[tuple[str, str]]:
         yield "residual", f"the residual is above that of the peak, {peak!r}: correct one of the two"
     elif end <= at:
         yield "residual", f"the residual is reached no later than the peak, {at!r}: correct one of the two"
-    if friction.criterion == "ELLIPSE":
-        yield "criterion", "a breakout across the line has no ellipse: write CRITERION=BOX"
