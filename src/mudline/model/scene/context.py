@@ -97,16 +97,11 @@ class Context:
     _placeless: set[tuple[int, int]] = field(default_factory=set)
     _out_of_sight: dict[tuple[str, str], _Uses] = field(default_factory=dict)
     _effort: Effort = field(default_factory=Effort)
-    _sound: range = range(0)
-    """Sections of which every line could be used: all own sections, in a deck without problems."""
 
     __repr__ = short_repr
 
     def __post_init__(self) -> None:
-        self._sound = range(0 if self.deck.problems else len(self.deck.own_sections))
-        for where, _, block in self.deck.every_block():
-            if where.section not in self._sound and self.deck.lost(where):
-                self.unread.add(block.keyword)
+        self.unread |= {block.keyword for where, _, block in self.deck.every_block() if self.deck.lost(where)}
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """Return the same as `Deck.blocks` for the evaluated deck, computed once for all callers."""

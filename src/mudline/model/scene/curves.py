@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 
 _CODES = {code.code: code for code in (CRV001, CRV011)}
-_NOWHERE = np.zeros(0, dtype=np.intp)
 OF_SEABED = "force-embedment curve"
 """Kind of curve that elements on the seabed follow."""
 OF_CURRENT = "current profile"
@@ -126,9 +125,7 @@ def _made(context: Context, given: SceneCurve) -> SceneCurve:
 
     blocks = None if given.of_seabed else Blocks.NEVER
     clashing, _ = clashes_and_repeats(given.points)
-    keep = np.arange(len(given.points), dtype=np.intp)
-    if clashing.size:
-        keep = np.delete(keep, clashing)
+    keep = np.delete(np.arange(len(given.points)), clashing)
     for index in clashing[: MOST_REPORTED + 1].tolist():
         (over, ordinate), (at, value) = given.axes, given.points[index].tolist()
         message = f"a second {ordinate} at {over} {at!r} ({value!r}): the slope there would be infinite; remove one"
@@ -152,14 +149,11 @@ def _made(context: Context, given: SceneCurve) -> SceneCurve:
 
 def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
     """Return indices of points at the ratio of an earlier point: those with another force, and exact repeats."""
-    if np.count_nonzero(points[1:, 0] > points[:-1, 0]) == max(len(points) - 1, 0):
-        return _NOWHERE, _NOWHERE
     order = np.argsort(points[:, 0], kind="stable")
     ratios, forces = points[order].T
-    begins: Mask = np.append(True, ratios[1:] != ratios[:-1])
-    starts = np.flatnonzero(begins)
-    first_force = np.repeat(forces[starts], np.diff(np.append(starts, len(ratios))))
-    differs = forces != first_force
+    begins: Mask = np.append(True, ratios[1:] != ratios[:-1])[: len(ratios)]
+    first = np.maximum.accumulate(np.where(begins, np.arange(len(ratios)), 0))
+    differs = forces != forces[first]
     return np.sort(order[differs]), np.sort(order[~differs & ~begins])
 
 

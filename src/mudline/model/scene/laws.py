@@ -101,9 +101,6 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     new = list(_properties(context, sets, laws, named))
     laws.set_laws = legacy + new
     wins = later_wins([set_law.set_ for set_law in new], count)
-    if not legacy and all(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in new):
-        laws.of_element = laws.covered = wins
-        return laws
     laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
     laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
     gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])

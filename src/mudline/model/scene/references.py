@@ -312,19 +312,14 @@ class _Looking:
         node = read_number(first.text)
         if (node is None and not Label.match(first.text)) or (node is not None and not node.is_integer()):
             return
-        if node is not None:
-            self._follower(node, where.inside(*first.span), nodes)
+        if node is not None and nodes is not None and shows_nodes(self.context, nodes):
+            lacks = (nodes.indices(np.array([node])) < 0).any()
+            if lacks and not self.context.possible_definition("NODE", int(node)):
+                message = f"node {node:.0f} is not defined: define it in *NODE, or correct the number"
+                self._warn(REF006, message, where.inside(*first.span), lacks=f"{node:.0f}")
         for field in others:
             if field.text and read_number(field.text) is None and not field.text.startswith(("=[", "{")):
                 self._vessel(where.inside(*field.span), keyword, field.text)
-
-    def _follower(self, node: float, where: Where, nodes: Numbered | None) -> None:
-        """Report the number of a node that follows a vessel, if it is not defined."""
-        shows = nodes is not None and shows_nodes(self.context, nodes)
-        lacks = nodes is not None and shows and (nodes.indices(np.array([node])) < 0).any()
-        if lacks and not self.context.possible_definition("NODE", int(node)):
-            message = f"node {node:.0f} is not defined: define it in *NODE, or correct the number"
-            self._warn(REF006, message, where, lacks=f"{node:.0f}")
 
     def _keyless(self, where: Where, keyword: str, groups: list[FieldGroup]) -> None:
         """Report a line of a keyword that is read, if the key before its first value is missing."""

@@ -65,9 +65,6 @@ class ByName(Mapping[str, Value]):
             raise self._missing(name)
         return found[1]
 
-    def __contains__(self, name: object) -> bool:
-        return self._find(name) is not None
-
     def __iter__(self) -> Iterator[str]:
         return (name for name, _ in self._entries.values())
 
@@ -283,8 +280,6 @@ class ResolvedDeck:
     def replaced(self) -> list[Replaced]:
         """Laws of extension keywords that replace other laws of elements; the last one takes effect."""
         replaced_laws: list[Replaced] = []
-        if not self.extensions:
-            return replaced_laws
         soft = self.laws_given != LawKind.RIGID
         for keyword, extension in reversed(self.extensions.items()):
             law, field = facts_of(keyword).gives_law

@@ -95,8 +95,7 @@ def suction_incomplete(scene: ResolvedDeck, extension: Extension) -> Iterator[Pr
                 yield Problem(EXT005, message, where=cohesion)
             elif unsized.any():
                 what = scene.describe(unsized)
-                message = f"COHESION= needs the external diameter, and {what} none: give Do (or Dd) in *GEOMETRIC SETS"
-                yield lacks_diameter(scene, EXT005, message, cohesion)
+                yield lacks_diameter(scene, EXT005, f"COHESION= needs the external diameter, and {what} none", cohesion)
         if user and "regularisation" in lacks:
             yield Problem(EXT005, "REGULARISATION= is missing: with user units it has no default; give it", where=title)
 

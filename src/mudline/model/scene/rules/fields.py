@@ -175,14 +175,9 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 10:2
     """
-    suspects = ~(scene.length > 0.0)
-    if not np.count_nonzero(suspects):
-        return
-    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & suspects)
+    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & ~(scene.length > 0.0))
     first, second = scene.element_nodes[known].T
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
-    if not same.size:
-        return
     joints = [keyword for keyword in scene.deck.keywords() if may_have_no_length(keyword)]
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
     reported: set[Where] = set()
@@ -225,8 +220,6 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 24:12
     """
-    if not scene.replaced and all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
-        return
     sections = scene.section_table
     lacking = np.isnan(sections.diameter) & ~sections.faulty
     holders = (scene.set_table.find(section.name) for section in sections.sections)
@@ -237,8 +230,8 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
         for index, where in enumerate(extension.places) if law_named(name).needs_diameter else ():
             bare = np.flatnonzero((scene.law == kind) & lacking & (extension.of_element == index))
             if bare.size:
-                what = f"a {name} and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
-                yield lacks_diameter(scene, SBD009, f"{scene.describe(bare)} {what}", where.inside("set"))
+                message = f"{scene.describe(bare)} a {name} and no external diameter"
+                yield lacks_diameter(scene, SBD009, message, where.inside("set"))
     missing = np.flatnonzero((scene.law == LawKind.CURVE) & lacking)
     if not missing.size:
         return
@@ -246,12 +239,13 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     begins = np.flatnonzero(np.diff(scene.laws.of_element[missing])) + 1
     for elements in np.split(missing, begins):
         index = int(scene.laws.of_element[elements[0]])
-        message = f"{scene.describe(elements)} a curve and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
+        message = f"{scene.describe(elements)} a curve and no external diameter"
         yield lacks_diameter(scene, SBD009, message, scene.laws.set_laws[index].where)
 
 
 def lacks_diameter(scene: ResolvedDeck, code: Code, message: str, where: Where) -> Problem:
     """Return the problem of an unknown external diameter that a law needs, wherever it may be given."""
+    message += ": give Do (or Dd) in *GEOMETRIC SETS"
     if scene.section_table.open:
         message += "; a section belongs to a set whose elements this deck does not show"
         return Problem(code, message, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
@@ -320,8 +314,6 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     yield from undefined(scene.context, CURVES, REF002)
     names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.name and not curve.embedment}
-    if names.keys() >= scene.referenced:
-        return
     laws = scene.laws.set_laws
     lost = [index for index, law in enumerate(laws) if law.kind is LawKind.CURVE and law.curve == NOTHING]
     followed = {laws[index].where for index in lost if (scene.laws.of_element == index).any()}

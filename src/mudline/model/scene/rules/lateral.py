@@ -67,9 +67,8 @@ def bad_trench(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     bare, locked = _without_spring(scene, extension)
     for entry, where, held in extension.blocks():
         yield from _of_block(cast("TrenchSet", entry), where)
-        if np.any(both := held & bare):
-            message = f"{scene.describe(both)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
-            yield _of_friction(scene, message, where.inside("set"))
+        message = "a trench and no lateral friction spring: give *SEABED FRICTION for them"
+        yield from of_elements(scene, held & bare, _of_friction(scene, message, where.inside("set")))
         if np.any(both := held & locked):
             yield _of_friction(scene, f"{_LOCKED}: {scene.describe(both, '', '').rstrip()}", where.inside("geometry"))
 
@@ -246,9 +245,7 @@ def bad_breakout(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]
             yield from of_elements(scene, held & (trench.of_element >= 0), problem)
         bare = held & np.isnan(scene.diameter)
         if friction.lateral == "F114" and bare.any():
-            message = (
-                f"{scene.describe(bare)} no external diameter for LATERAL=F114: give Do (or Dd) in *GEOMETRIC SETS"
-            )
+            message = f"{scene.describe(bare)} no external diameter for LATERAL=F114"
             yield lacks_diameter(scene, EXT013, message, where.inside("lateral"))
 
 

@@ -392,7 +392,10 @@ def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     faults = list(_faulty_planes(scene))
     yield from faults
-    if scene.seabed.kind is SeabedKind.PLANES and not faults and _known_planes(scene) and (fault := _fault(scene)):
+    planes = scene.seabed.planes
+    numbers = (value for plane in planes for value in (*plane.point, plane.slope, plane.direction, *plane.bounds))
+    readable = not any(map(math.isnan, numbers))  # other faults of numbers are reported already
+    if scene.seabed.kind is SeabedKind.PLANES and not faults and readable and (fault := _fault(scene)):
         yield Problem(EXT007, f"{fault}: correct it", where=scene.seabed.where)
     yield from _repeated(scene)
 
@@ -414,14 +417,6 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
                     "invalid bounds: the second value must be larger than the first, the fourth larger than the third"
                 )
                 yield Problem(EXT007, message, where=place.inside("bounds"))
-
-
-def _known_planes(scene: ResolvedDeck) -> bool:
-    """Return True if all numbers of planes could be read; other faults are reported already."""
-    numbers = (
-        value for plane in scene.seabed.planes for value in (*plane.point, plane.slope, plane.direction, *plane.bounds)
-    )
-    return not any(map(math.isnan, numbers))
 
 
 def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
