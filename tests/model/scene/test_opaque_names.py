@@ -16,7 +16,7 @@ from mudline.language.diagnostics import Span
 from mudline.language.keywords.values import LINE_SETS, Names
 from mudline.language.syntax import fields
 from mudline.language.syntax.fields import read_line
-from mudline.model.scene.deck_values import opaque_labels, opaque_set_names
+from mudline.model.scene.deck_values import first_written, sets_in, texts_in
 from tests.helpers.builders.decks import PIPE
 from tests.helpers.builders.scenes import messages, reported
 from tests.helpers.builders.spellings import names, pads, setting, texts
@@ -30,11 +30,11 @@ def deck_of(text: str) -> Deck:
 
 
 def sets_of(text: str) -> list[str]:
-    return list(opaque_set_names(deck_of(text)).values())
+    return list(first_written(deck_of(text), sets_in).values())
 
 
 def labels_of(text: str) -> list[str]:
-    return list(opaque_labels(deck_of(text)).values())
+    return list(first_written(deck_of(text), texts_in).values())
 
 
 # ----------------------------------------------------------------------------------------------------------------- sets
@@ -71,7 +71,7 @@ def test_sets(text: str, found: str) -> None:
 def test_names_of_a_keyword_with_a_model_that_a_document_gives_as_lines() -> None:
     block = {"keyword": "LINE PATH SECTIONS", "lines": [" LINE=a", " SECTION=b, 0, 1", " ADDITIONAL=c, d"]}
     document = {"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": [block]}]}
-    assert list(opaque_set_names(load_bytes(json.dumps(document).encode(), "deck.json"))) == ["a", "b", "c", "d"]
+    assert list(first_written(load_bytes(json.dumps(document).encode(), "deck.json"), sets_in)) == ["a", "b", "c", "d"]
 
 
 _KEYWORDS = st.sampled_from(["LINES", "LINE PATHS", "LINE PATH SECTIONS", "LINE SECTION GROUPS"])
@@ -88,7 +88,7 @@ def test_any_name_is_found(keyword: str, line: str, section: str, more: list[str
         data.draw(setting("ADDITIONAL", listed + data.draw(st.sampled_from(["", ",", " , ,"])))),
     ]
     block = "".join(f"{text}\n" for text in (f"*{keyword}", *lines))
-    found = opaque_set_names(deck_of(block))
+    found = first_written(deck_of(block), sets_in)
     for name in (line, section, *more):
         assert name_key(name) in found
         seabed = f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={data.draw(_CASES)(name)}\n STIFFNESS=1.0\n"
@@ -115,7 +115,7 @@ _pieces = st.lists(
 def test_lines_are_cut_as_the_reader_of_fields_does(line: str) -> None:
     line = " " + line.replace("$", "").replace("*", "")
     wanted = {name_key(name) for name in _slowly(line)} - {""}
-    assert set(opaque_set_names(deck_of(f"*LINES\n{line}\n"))) == wanted
+    assert set(first_written(deck_of(f"*LINES\n{line}\n"), sets_in)) == wanted
 
 
 @pytest.mark.untraced
@@ -125,7 +125,7 @@ def test_no_line_takes_long(unit: str, monkeypatch: pytest.MonkeyPatch) -> None:
         return deck_of(f"*LINES\n LINE={unit * count}\n LINE=SCR\n")
 
     def opaque_sets(deck: Deck) -> list[dict[str, str]]:
-        return [opaque_set_names(deck), opaque_labels(deck)]
+        return [first_written(deck, sets_in), first_written(deck, texts_in)]
 
     assert call_growth(opaque_sets, line(2_500), line(5_000)) < TWOFOLD
     assert growth(opaque_sets, line(5_000), line(20_000)) < FOURFOLD

@@ -20,7 +20,7 @@ from mudline.checks.recovery.blocks import (
 from mudline.checks.rules.style import INDENTED_COMMENT
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN001
-from mudline.language.codes.references import REF001, REF005, REF006, REF007, REF008
+from mudline.language.codes.references import REF001, REF002, REF005, REF006, REF007, REF008, REF019
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.deck.reading import TextOrigin
@@ -33,8 +33,7 @@ from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.rows import NUMBER
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.references import CURVES, THINGS, undefined
-from mudline.model.scene.rules.fields import REF019
-from mudline.model.scene.rules.laws import REF002, undefined_curve
+from mudline.model.scene.rules.fields import undefined_curve
 from mudline.model.scene.sets import ALL
 
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})

@@ -24,9 +24,8 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.laws import SetLaw, present
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.references import KEYWORD
+from mudline.model.scene.references import KEYWORD, is_of_vessels
 from mudline.model.scene.sets import ALL, NamedSet
-from mudline.model.scene.unread_lines import is_of_vessels
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import SeabedProperties, SeabedSet

@@ -21,7 +21,7 @@ from mudline.language.rules import rule
 from mudline.language.syntax.edits import with_line_ends
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.model import Scene
-from mudline.model.scene.rules.laws import SBD002
+from mudline.model.scene.rules.seabed import SBD002
 
 SYN019 = Code("SYN019", "no-section", Severity.ERROR)
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)

@@ -9,10 +9,10 @@ import numpy as np
 from mudline.checks.context import LintContext
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.rules import rule
+from mudline.model.scene.given_positions import FLAT
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Mask
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
-from mudline.model.scene.vertical_axis import FLAT
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)

@@ -17,14 +17,13 @@ from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
+from mudline.model.scene.laws import Extension, rule_of_extension
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.rules.extensions import rule_of_extension
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.analysis import TimeSpan
     from mudline.model.contact.laws.suction import SuctionLaw
-    from mudline.model.scene.laws import Extension
     from mudline.model.scene.oscillation import Oscillation
 
 EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from enum import StrEnum
 from functools import partial
+from itertools import combinations, pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -30,10 +31,10 @@ from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.language.keywords.catalogue import is_superseded, supersedes
 from mudline.model.contact.input import LawKind
+from mudline.model.scene.csv_file import ExternalElements
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.laws import ResistanceValues, SetLaw
 from mudline.model.scene.model import Scene, resolve
-from mudline.model.scene.representatives import representatives, shows_elements
 
 
 class DeckStatus(StrEnum):
@@ -184,7 +185,7 @@ def _meaning(pair: Pair, groups: set[str]) -> Iterator[Difference]:
     """Yield the differences of the laws of elements and of the seabed."""
     yield from _of_elements(pair)
     scenes = pair.before.scene, pair.after.scene
-    if not all(map(shows_elements, scenes)):
+    if not all(scene.shows_elements for scene in scenes):
         external, names = representatives(*scenes)
         first, second = (Side(resolve(scene.deck, external)) for scene in scenes)
         yield from _of_elements(replace(pair, before=first, after=second), names)
@@ -232,3 +233,52 @@ def _seabed(pair: Pair) -> Iterator[Difference]:
         if not pair.tolerance.values(before, after):
             yield pair.difference("seabed", f"seabed/{name}", (before, old.where), (after, new.where))
     yield from seabed_points(pair)
+
+
+# -------------------------------------------------------------------------------- elements that a deck does not show
+
+_ALL_PAIRS = 40
+_DIAMETERS = (0.2731, 0.5)
+_FIRST = 2**40
+
+
+def representatives(*scenes: Scene) -> tuple[ExternalElements, dict[int, str]]:
+    """Return elements of two diameters in no set, in each set that a law names, and in two of them.
+
+    The last block that holds an element wins, which makes an order of the blocks. It is the same in two decks if it is
+    the same for every two consecutive blocks; with many sets no other pairs are needed. Each element has two nodes of
+    its own. The second result is its description, by its number.
+    """
+    sets = _sets(scenes)
+    pairs = combinations(sets, 2) if len(sets) <= _ALL_PAIRS else pairwise(sets)
+    given: list[tuple[str, ...]] = [(), *((name,) for name in sets), *pairs]
+    memberships = dict(enumerate((membership for membership in given for _ in _DIAMETERS), _FIRST))
+    members: dict[str, list[int]] = {name: [] for name in sets}
+    for number, membership in memberships.items():
+        for name in membership:
+            members[name].append(number)
+    count = len(memberships)
+    elements = ExternalElements(
+        "representative elements",
+        _FIRST + np.arange(count),
+        _FIRST + np.arange(2 * count).reshape(count, 2),
+        np.resize(_DIAMETERS, count),
+        np.ones(count),
+        {name: np.array(ids, dtype=np.int64) for name, ids in members.items()},
+    )
+    names = {
+        number: f"an element of {' and '.join(membership)}" if membership else "an element of no set but ALL"
+        for number, membership in memberships.items()
+    }
+    return elements, names
+
+
+def _sets(scenes: Iterable[Scene]) -> list[str]:
+    """Return the sets that laws name, each once, in the order of the last block that names it."""
+    last: dict[str, str] = {}
+    for scene in scenes:
+        for law in scene.laws.set_laws:
+            if law.set_ is not scene.set_table.everything:
+                last.pop(folded(law.set_.name), None)
+                last[folded(law.set_.name)] = law.set_.name
+    return list(last.values())

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.editing.comparison.comparing import compare
-from mudline.editing.comparison.decks import without_spelling
+from mudline.editing.comparison.decks import representatives, without_spelling
 from mudline.editing.comparison.model import Difference
 from mudline.editing.migration.refusals import misspelt, refusals, superseded_blocks
 from mudline.editing.migration.rewriting import rewrite, unused_definitions
@@ -29,7 +29,6 @@ from mudline.model.curves import ForceCurve
 from mudline.model.scene.deck_values import data_lines
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.representatives import representatives, shows_elements
 from mudline.model.scene.seabed import parse_profile
 
 
@@ -168,7 +167,7 @@ def verify(migration: Migration) -> Verification:
         differences.append(MigrationDifference(what, f"{value}: {each.before} before, {each.after} after"))
     kinds, positions, deviations = _compare(before, after, {})
     differences += deviations
-    if shows_elements(before):
+    if before.shows_elements:
         return Verification(len(before.element_ids), kinds, positions, 0, tuple(differences))
     external, names = representatives(before)
     _, more, deviations = _compare(resolve(before.deck, external), resolve(after.deck, external), names)

@@ -25,7 +25,6 @@ from mudline.language.syntax.rows import line_spans
 from mudline.language.syntax.tree import LeafKind, RawBlock
 from mudline.model.scene.laws import DIRECTIONS
 from mudline.model.scene.model import Scene
-from mudline.model.scene.representatives import shows_elements
 from mudline.model.scene.sets import ALL
 
 _UNSAFE = re.compile(r"[^\w.-]+")
@@ -50,7 +49,7 @@ def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
     A curve has no elements if a later curve has the same set or ALL. Other definitions are known to have none only if
     the deck lists all its elements and no deck that continues it has more (`extended`).
     """
-    shown = shows_elements(scene) and not extended
+    shown = scene.shows_elements and not extended
     later: set[str] = set()
     unused: set[Where] = set()
     legacy = [(i, law) for i, law in enumerate(scene.laws.set_laws) if law.family == "legacy" and law.curve >= 0]

@@ -186,4 +186,6 @@ REF014 = Code(
     """,
 )
 
+REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
 REF015 = Code("REF015", "missing-file", Severity.WARNING)
+REF019 = Code("REF019", "undefined-name", Severity.ERROR)

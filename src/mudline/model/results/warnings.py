@@ -25,11 +25,10 @@ from mudline.model.contact import ContactModel, ContactResult, LawKind
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation, PositionSource, evaluate_scene
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
-from mudline.model.scene.given_positions import Doubt, position_doubts
+from mudline.model.scene.given_positions import Doubt, height_along_z, position_doubts
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, distinct
 from mudline.model.scene.seabed import survey_of
-from mudline.model.scene.vertical_axis import height_along_z
 from mudline.model.scene.weights import (
     PipeContents,
     attached,

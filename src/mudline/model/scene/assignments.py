@@ -245,18 +245,13 @@ def _of_properties(scene: ResolvedDeck) -> Floats:
     }
     largest = np.fmin(by_name["characteristic"], np.inf)
     largest = np.where(np.isinf(largest), LARGEST_MOBILISATION.get(scene.units, np.inf), largest)
-    default = np.fmin(_shortest(scene)[:, None], largest)
+    shortest = np.full(count, np.inf)  # of the elements of each node
+    usable = np.isfinite(scene.length) & (scene.length > 0.0)
+    for end in ends[usable].T:
+        np.minimum.at(shortest, end, scene.length[usable])
+    default = np.fmin(shortest[:, None], largest)
     length = np.where(by_name["mobilisation"] > 0.0, by_name["mobilisation"], default)
     return np.stack([by_name["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan)])
-
-
-def _shortest(scene: ResolvedDeck) -> Floats:
-    """Return the smallest length of each node's elements; infinite if none is above 0."""
-    shortest = np.full(len(scene.node_ids), np.inf)
-    usable = np.isfinite(scene.length) & (scene.length > 0.0)
-    for end in scene.element_nodes[usable].T:
-        np.minimum.at(shortest, end, scene.length[usable])
-    return shortest
 
 
 def _of_keyword(scene: ResolvedDeck, extension: Extension, block: Indices) -> Floats:

@@ -28,7 +28,21 @@ _REFUSED = "; this cannot be evaluated"
 
 def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> ContactInput:
     """Return the arrays that the evaluator is made from; raises DeckError (RUN001) for faults that no check covers."""
-    if problems := list(_refusals(scene)):
+    springs = ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL))
+    unknown = scene.element_nodes.min(axis=1, initial=0) < 0
+    problems = []
+    for found, one, many in (
+        (unknown, "ends at a node that is not known", "end at nodes that are not known"),
+        (
+            springs & ~np.isfinite(scene.length) & ~unknown,
+            "has no known finite length",
+            "have no known finite length",
+        ),
+    ):
+        for at in np.flatnonzero(found)[:1].tolist():
+            message = f"{scene.describe(found, one, many)}{_REFUSED}"
+            problems.append(Problem(RUN001, message, where=scene.table.numbered.where(at)))
+    if problems:
         raise DeckError(scene.deck.diagnose(problems))
     arrays = scene.law_arrays()
     laws = tuple(law for law in (*_normal_laws(scene, arrays), *_laws_beside(scene)) if len(law.rows))
@@ -56,22 +70,6 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
         )
     except ElementError as error:
         raise scene.refusal(f"{error}{_REFUSED}", element=error.element) from error
-
-
-def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
-    """Yield a problem for each kind of fault that no check covers, at the first element concerned."""
-    springs = ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL))
-    unknown = scene.element_nodes.min(axis=1, initial=0) < 0
-    yield from _refusal(scene, unknown, "ends at a node that is not known", "end at nodes that are not known")
-    endless = springs & ~np.isfinite(scene.length) & ~unknown
-    yield from _refusal(scene, endless, "has no known finite length", "have no known finite length")
-
-
-def _refusal(scene: ResolvedDeck, found: Mask, one: str, many: str) -> Iterator[Problem]:
-    at = np.flatnonzero(found)
-    if at.size:
-        message = f"{scene.describe(at, one, many)}{_REFUSED}"
-        yield Problem(RUN001, message, where=scene.table.numbered.where(int(at[0])))
 
 
 def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -26,15 +27,16 @@ from mudline.language.syntax.tree import canonical_name, mark_of
 from mudline.model.scene.deck_values import (
     COMMENT,
     definition_by,
-    external_definers,
+    first_written,
     is_read_definer,
+    makes,
     makes_labels,
-    nodes_on_cables,
-    opaque_labels,
-    opaque_set_names,
+    sets_in,
+    texts_in,
 )
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.curvilinear import CurvilinearNodes
     from mudline.language.keywords.library.seabed_properties import Surface
 
 MOST_NAMED = 3
@@ -94,16 +96,11 @@ class Context:
     _placeless: set[tuple[int, int]] = field(default_factory=set)
     _out_of_sight: dict[tuple[str, str], _Uses] = field(default_factory=dict)
     _effort: Effort = field(default_factory=Effort)
-    _sound: range = range(0)
-    """Sections of which every line could be used: all own sections, in a deck without problems."""
 
     __repr__ = short_repr
 
     def __post_init__(self) -> None:
-        self._sound = range(0 if self.deck.problems else len(self.deck.own_sections))
-        for where, _, block in self.deck.every_block():
-            if where.section not in self._sound and self.deck.lost(where):
-                self.unread.add(block.keyword)
+        self.unread |= {block.keyword for where, _, block in self.deck.every_block() if self.deck.lost(where)}
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """Return the same as `Deck.blocks` for the evaluated deck, computed once for all callers."""
@@ -190,7 +187,9 @@ class Context:
             if places:
                 return
         number = lacks if isinstance(lacks, int) else None
-        if keyword in _NUMBERED and (definer := self._definer(keyword, number)):
+        unread = (name for name in self.external_definers if not (is_read_definer(name) or makes_labels(name)))
+        definer = next((name for name in unread if self._definition_by(name, keyword, number)), "")
+        if keyword in _NUMBERED and definer:
             use = self._out_of_sight.setdefault((definer, keyword), _Uses(code, number, where))
             use.count += 1
             use.blocks = blocks or use.blocks
@@ -246,11 +245,6 @@ class Context:
             where = next(blocks, use.where)
             self.note(Problem(use.code, message, None, Severity.INFO, where, None, use.blocks))
 
-    def _definer(self, keyword: str, number: int | None) -> str:
-        """Return the unread keyword whose lines may define an object with a number, None for any, or ""."""
-        unread = (name for name in self.external_definers if not (is_read_definer(name) or makes_labels(name)))
-        return next((definer for definer in unread if self._definition_by(definer, keyword, number)), "")
-
     def _definition_by(self, definer: str, keyword: str, number: int | None) -> str:
         """Return in words how a definer may define an object; "" if it cannot, or has other numbers."""
         words = definition_by(definer, keyword)
@@ -260,7 +254,23 @@ class Context:
 
     @cached_property
     def _on_cables(self) -> list[range] | None:
-        return nodes_on_cables(self.deck)
+        """Numbers of the nodes on cables, in ranges; None if some of them are not known."""
+        ranges: list[range] = []
+        for where, block in self.blocks("NODE,CURVILINEAR"):
+            for entry in cast("CurvilinearNodes", block).entries:
+                if hasattr(entry, "nodes"):
+                    numbers = entry.nodes.column(0).tolist()
+                    ranges += [range(int(number), int(number) + 1) for number in numbers if math.isfinite(number)]
+                    readable = all(map(math.isfinite, numbers))
+                else:
+                    start, end, step = entry.generate.start, entry.generate.end, entry.generate.increment or 1
+                    readable = False
+                    if isinstance(start, int) and isinstance(end, int) and isinstance(step, int) and step > 0:
+                        readable = True
+                        ranges.append(range(start + step, end, step))
+                if not readable or self.deck.lost(where):
+                    return None
+        return ranges
 
     def missing(self, code: Code, message: str, where: Where, keyword: str, lacks: int | str | None = None) -> Problem:
         """Return the problem of an undefined name or number: a warning if something unread could define it."""
@@ -342,8 +352,9 @@ class Context:
 
     @cached_property
     def external_definers(self) -> list[str]:
-        """Keywords of the model that make nodes, elements or sets which the deck does not show."""
-        return external_definers(self.deck)
+        """Keywords of the model that make nodes, elements or sets which the deck does not show; unread ones first."""
+        keywords = catalogue.in_order(keyword for keyword in self.deck.keywords() if makes(keyword))
+        return sorted(keywords, key=is_read_definer)
 
     @cached_property
     def restart(self) -> bool:
@@ -383,12 +394,12 @@ class Context:
     @cached_property
     def opaque_set_names(self) -> dict[str, str]:
         """Names of the element sets that lines make, by their folded form."""
-        return opaque_set_names(self.deck) if self.external_definers else {}
+        return first_written(self.deck, sets_in) if self.external_definers else {}
 
     @cached_property
     def labels(self) -> dict[str, str]:
         """Possible labels of nodes that lines make, and those of `*LABEL`, by their folded form."""
-        return opaque_labels(self.deck) | labels_given(self.written, Names.NODE)
+        return first_written(self.deck, texts_in) | labels_given(self.written, Names.NODE)
 
 
 def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:

@@ -20,18 +20,17 @@ from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.model import Block, FieldSpec, Part, Row, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.values import Names, known_name
+from mudline.language.keywords.values import Names
 from mudline.language.keywords.writer import field_text
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.sections import read_surroundings
 
 if TYPE_CHECKING:
     from mudline.model.curves import ForceCurve
 
 
 _CODES = {code.code: code for code in (CRV001, CRV011)}
-_NOWHERE = np.zeros(0, dtype=np.intp)
 OF_SEABED = "force-embedment curve"
 """Kind of curve that elements on the seabed follow."""
 OF_CURRENT = "current profile"
@@ -116,11 +115,6 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve], l
     return named, by_set, [_below_surface(context, curve) if curve.kind == OF_CURRENT else curve for curve in others]
 
 
-def set_name(name: str | None) -> str | None:
-    """Return the name that a SET= of a seabed law gives: ALL without a SET=, None if it could not be read."""
-    return "ALL" if name is None else known_name(name)
-
-
 def _made(context: Context, given: SceneCurve) -> SceneCurve:
     """Return a curve with the curve that its points form.
 
@@ -131,9 +125,7 @@ def _made(context: Context, given: SceneCurve) -> SceneCurve:
 
     blocks = None if given.of_seabed else Blocks.NEVER
     clashing, _ = clashes_and_repeats(given.points)
-    keep = np.arange(len(given.points), dtype=np.intp)
-    if clashing.size:
-        keep = np.delete(keep, clashing)
+    keep = np.delete(np.arange(len(given.points)), clashing)
     for index in clashing[: MOST_REPORTED + 1].tolist():
         (over, ordinate), (at, value) = given.axes, given.points[index].tolist()
         message = f"a second {ordinate} at {over} {at!r} ({value!r}): the slope there would be infinite; remove one"
@@ -157,14 +149,11 @@ def _made(context: Context, given: SceneCurve) -> SceneCurve:
 
 def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
     """Return indices of points at the ratio of an earlier point: those with another force, and exact repeats."""
-    if np.count_nonzero(points[1:, 0] > points[:-1, 0]) == max(len(points) - 1, 0):
-        return _NOWHERE, _NOWHERE
     order = np.argsort(points[:, 0], kind="stable")
     ratios, forces = points[order].T
-    begins: Mask = np.append(True, ratios[1:] != ratios[:-1])
-    starts = np.flatnonzero(begins)
-    first_force = np.repeat(forces[starts], np.diff(np.append(starts, len(ratios))))
-    differs = forces != first_force
+    begins: Mask = np.append(True, ratios[1:] != ratios[:-1])[: len(ratios)]
+    first = np.maximum.accumulate(np.where(begins, np.arange(len(ratios)), 0))
+    differs = forces != forces[first]
     return np.sort(order[differs]), np.sort(order[~differs & ~begins])
 
 
@@ -174,8 +163,7 @@ def _below_surface(context: Context, curve: SceneCurve) -> SceneCurve:
     if curve.axes[0] == _DOWN[0]:
         low = max(low, 0.0)
     elif curve.units[0] == "L":
-        oceans = [block for _, block in context.blocks("OCEAN")]
-        depth = number(oceans[-1], "depth", inf) if oceans else inf
+        depth = read_surroundings(context.deck).depth
         high = min(high, depth) if depth > low else high
     return curve._replace(reach=(low, high))
 

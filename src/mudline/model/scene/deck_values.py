@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, cast
 
 from mudline.basics.files import look
 from mudline.basics.outside import is_made_by_system, is_refused, project_of
@@ -17,14 +16,11 @@ from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, bare, folded
 from mudline.language.diagnostics import Severity, Span, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.model import Block, FieldSpec, Row, record_schema
+from mudline.language.keywords.model import Block, Row, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import LINE_SETS, Names
 from mudline.language.syntax.fields import read_line
 from mudline.language.syntax.rows import read_number
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.curvilinear import CurvilinearNodes
 
 FOOT = 0.3048
 POUND = 4.4482216152605
@@ -120,42 +116,15 @@ COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
 _WORD = re.compile(r"[^-+.,0-9 \t]")
 
 
-def external_definers(deck: Deck) -> list[str]:
-    """Return keywords of the model that make nodes, elements or sets out of sight; unread keywords first."""
-    keywords = [keyword for keyword in deck.keywords() if _makes(keyword)]
-    return sorted(catalogue.in_order(keywords), key=is_read_definer) if keywords else []
-
-
 def is_read_definer(keyword: str) -> bool:
     """Return True if a keyword is read, and its lines make objects which the deck does not show."""
     facts = catalogue.facts_of(keyword)
     return bool(facts.makes) and not facts.out_of_sight
 
 
-def nodes_on_cables(deck: Deck) -> list[range] | None:
-    """Return the numbers of the nodes on cables, in ranges; None if some of them are not known."""
-    ranges: list[range] = []
-    for where, block in deck.blocks("NODE,CURVILINEAR"):
-        for entry in cast("CurvilinearNodes", block).entries:
-            if hasattr(entry, "nodes"):
-                numbers = entry.nodes.column(0).tolist()
-                ranges += [range(int(number), int(number) + 1) for number in numbers if math.isfinite(number)]
-                readable = all(map(math.isfinite, numbers))
-            else:
-                span = entry.generate
-                start, end, step = span.start, span.end, span.increment or 1
-                readable = False
-                if isinstance(start, int) and isinstance(end, int) and isinstance(step, int) and step > 0:
-                    readable = True
-                    ranges.append(range(start + step, end, step))
-            if not readable or deck.lost(where):
-                return None
-    return ranges
-
-
 def definition_by(definer: str, keyword: str) -> str:
     """Return in words how a definer may define an object of `keyword`; "" if it cannot."""
-    if keyword not in _makes(definer):
+    if keyword not in makes(definer):
         return ""
     if is_read_definer(definer):
         return f"the lines of *{definer}, which this deck does not show, may define it"
@@ -165,7 +134,7 @@ def definition_by(definer: str, keyword: str) -> str:
 
 def unread_makers(definers: Iterable[str], keyword: str) -> list[str]:
     """Return the definers that are not read and may define objects of `keyword`."""
-    return [definer for definer in definers if keyword in _makes(definer) and not is_read_definer(definer)]
+    return [definer for definer in definers if keyword in makes(definer) and not is_read_definer(definer)]
 
 
 def makes_labels(definer: str) -> bool:
@@ -175,31 +144,22 @@ def makes_labels(definer: str) -> bool:
 
 
 @lru_cache(1024)
-def _makes(keyword: str) -> tuple[str, ...]:
+def makes(keyword: str) -> tuple[str, ...]:
+    """Return the keywords whose objects a keyword of the model makes out of sight."""
     kept = catalogue.opaque_keyword("MODEL", keyword)
     return kept.makes if kept else catalogue.facts_of(keyword).makes
 
 
-def opaque_set_names(deck: Deck) -> dict[str, str]:
-    """Return names of the element sets that lines make, as first written, by their folded form."""
-    return _first_written(deck, _sets)
-
-
-def opaque_labels(deck: Deck) -> dict[str, str]:
-    """Return texts in kept blocks that may be labels of nodes, as first written, by their folded form."""
-    return _first_written(deck, _texts)
-
-
-def _first_written(deck: Deck, named: Callable[[Block | Opaque], Iterator[str]]) -> dict[str, str]:
+def first_written(deck: Deck, named: Callable[[Block | Opaque], Iterator[str]]) -> dict[str, str]:
     """Return the names in every block of `$MODEL`, read or not, by their folded form."""
-    first_written: dict[str, str] = {}
+    names: dict[str, str] = {}
     blocks = (block for _, section, block in deck.every_block() if section == "MODEL")
     for text in filter(None, (bare(name) for block in blocks for name in named(block))):
-        first_written.setdefault(folded(text), text)
-    return first_written
+        names.setdefault(folded(text), text)
+    return names
 
 
-def _sets(block: Block | Opaque) -> Iterator[str]:
+def sets_in(block: Block | Opaque) -> Iterator[str]:
     """Yield the element sets that a block of lines names."""
     if isinstance(block, Opaque):
         kept = catalogue.opaque_keyword("MODEL", block.keyword)
@@ -209,17 +169,13 @@ def _sets(block: Block | Opaque) -> Iterator[str]:
                 if kind := keys.get(group.key):
                     yield from (field.text for field in group.fields[: None if kind is Names.SETS else 1])
     elif block.facts.makes:
-        for _, _, value in block.walk(_makes_sets):
+        for _, _, value in block.walk(lambda slot: slot.key in LINE_SETS):
             name = getattr(value, record_schema(type(value)).columns[0].name) if isinstance(value, Row) else value
             if isinstance(name, str) and name:
                 yield name
 
 
-def _makes_sets(slot: FieldSpec) -> bool:
-    return slot.key in LINE_SETS
-
-
-def _texts(block: Block | Opaque) -> Iterator[str]:
+def texts_in(block: Block | Opaque) -> Iterator[str]:
     """Yield every value of a block that is neither a number nor an equation."""
     kept = catalogue.opaque_keyword("MODEL", block.keyword)
     if not isinstance(block, Opaque) or kept is None or not kept.labels:

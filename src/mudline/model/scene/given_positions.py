@@ -1,9 +1,9 @@
-"""Doubts about positions of a file before they are evaluated: their order, their nodes, their digits."""
+"""Doubts about positions of nodes before they are evaluated: their vertical axis, order, nodes and digits."""
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,13 +11,23 @@ from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted
 from mudline.language.codes.contact import RUN006, RUN007, RUN008
 from mudline.language.diagnostics import Code, Where
-from mudline.model.contact.arrays import Positions
-from mudline.model.contact.input import ContactInput
-from mudline.model.scene.csv_file import data_error
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 
+if TYPE_CHECKING:
+    from mudline.model.contact.arrays import Positions
+    from mudline.model.contact.input import ContactInput
+
+FLAT = 0.01
+"""Share of the water depth by which the X of nodes may differ in a line that is upright along Z."""
+NEAR = 0.05
+"""Share of the water depth within which a riser ends at the seabed or the sea surface."""
+DEEPEST = 5.0
+"""Depth in diameters below 0 at which Z may still be the height of a pipe that lies on the seabed."""
+LEVEL = 0.005
+"""Ratio of rise to length of a level element."""
 GROSS = 1.5, 0.1
 """Limits of a wrong order of nodes: factor between length and distance, and share of elements beyond it."""
 _SLIGHT = 1.1
@@ -37,6 +47,41 @@ class Doubt(NamedTuple):
     where: Where | None
     elements: Indices
     brief: str
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
+    """Return in words the signs that Z is the height of nodes at `places` (n, 3); "" without any.
+
+    Either the line has one X and Z spans the water depth. Or elements run along X, and lie just below Z = 0, or at
+    minus the water depth, as a pipe on the seabed does. A vertical riser at Z = 0 shows neither sign, unless it is
+    longer than the water depth.
+    """
+    ends = scene.element_nodes[elements]
+    used = places[ends.ravel()]
+    if not used.size or not np.isfinite(used).all():
+        return ""
+    (low_x, _, low_z), (high_x, _, high_z) = used.min(axis=0), used.max(axis=0)
+    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
+    depth = number(oceans[-1], "depth") if oceans else np.nan
+    rise = high_z - low_z
+    near = NEAR * depth
+    if abs(rise - depth) <= near and min(abs(low_z), abs(high_z)) <= near and high_x - low_x <= FLAT * depth:
+        return f"X is the same at all nodes and Z goes from {low_z:.5g} to {high_z:.5g}"
+    first, second = places[ends[:, 0]], places[ends[:, 1]]
+    run = np.abs(second - first)
+    along_x = (run[:, 0] > 0.0) & (run[:, 2] <= LEVEL * run[:, 0]) & (run[:, 1] <= run[:, 0])
+    middle = 0.5 * first[:, 2] + 0.5 * second[:, 2]
+    sunk = along_x & (abs(middle + depth) <= FLAT * depth)
+    if sunk.sum() > 1 and high_z > low_z + near:
+        return f"{int(sunk.sum())} elements run along X at minus the water depth in Z"
+    limit = DEEPEST * np.nan_to_num(scene.diameter[elements])
+    lies = along_x & (middle <= 0.0) & (middle >= -limit)
+    below = lies & (middle < 0.0)
+    if below.sum() > 1 or (lies.any() and high_x - low_x > (1.0 + NEAR) * depth):
+        level = f"at Z = {low_z:.5g}" if low_z == high_z else f"with Z from {low_z:.5g} to {high_z:.5g}"
+        return f"{int(lies.sum())} elements run along X {level}"
+    return ""
 
 
 def off_lengths(scene: Scene, places: Floats, factor: float) -> tuple[Indices, Indices]:
@@ -74,6 +119,8 @@ def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
         f"{shown(float(scene.length[first]))} ({len(off)} of {counted(len(known), 'element')} differ by over "
         f"{GROSS[0]:g} times); sort them, or give their numbers in a CSV, or in the array node of an NPZ"
     )
+    from mudline.model.scene.csv_file import data_error  # noqa: PLC0415 - checking a deck does without it
+
     raise data_error(file, message)
 
 

@@ -409,15 +409,11 @@ def _check(deck: Deck, tables: Mapping[TableForm, Sequence[_NamedRows]]) -> None
                 what = f"{cut(entry.name, 40)!r} cannot be a name in a deck: it reads as {cut(str(named), 40)!r}"
                 raise entry.sheet.fault(*entry.cell, what)
             if form.curve and isinstance(table := getattr(record, "points", None), Table):
-                _check_curve(form.curve, table, entry)
-
-
-def _check_curve(curve: Rows, table: Table, entry: _NamedRows) -> None:
-    points = np.column_stack([table.column(index) for index in curve.axes])
-    if np.isnan(points).any():  # an equation: the deck's own checks see its value
-        return
-    try:
-        ForceCurve(points)
-    except CurveError as error:
-        row = entry.rows[error.index] if 0 <= error.index < len(entry.rows) else entry.cell[0]
-        raise entry.sheet.fault(row, entry.first, str(error)) from error
+                points = np.column_stack([table.column(index) for index in form.curve.axes])
+                if np.isnan(points).any():  # an equation: the deck's own checks see its value
+                    continue
+                try:
+                    ForceCurve(points)
+                except CurveError as error:
+                    row = entry.rows[error.index] if 0 <= error.index < len(entry.rows) else entry.cell[0]
+                    raise entry.sheet.fault(row, entry.first, str(error)) from error

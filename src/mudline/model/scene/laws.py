@@ -3,27 +3,29 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, cast
+from functools import wraps
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.language.deck.parameters import folded
-from mudline.language.diagnostics import Where
+from mudline.language.diagnostics import Code, Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import is_partly_unknown
 from mudline.language.keywords.values import UNKNOWN, known_name
+from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
-from mudline.model.scene.curves import SceneCurve, set_name
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, marked, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties, SeabedSet
+    from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties
     from mudline.language.keywords.model import Record
 
 
@@ -100,9 +102,6 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     new = list(_properties(context, sets, laws, named))
     laws.set_laws = legacy + new
     wins = later_wins([set_law.set_ for set_law in new], count)
-    if not legacy and all(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in new):
-        laws.of_element = laws.covered = wins
-        return laws
     laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
     laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
     gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
@@ -161,11 +160,12 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
             laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
         if not properties.sets and is_partly_unknown(properties.sets):
             laws.gaps.append(where)
-        gaps = [where.inside("sets", index) for index, entry in enumerate(properties.sets) if _has_gap(entry)]
-        laws.gaps += gaps
         for index, entry in enumerate(properties.sets):
             place = where.inside("sets", index)
-            name = set_name(entry.set_name)
+            values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
+            if UNKNOWN in values and None not in values:  # a line that could not be used may be another SET=
+                laws.gaps.append(place)
+            name = "ALL" if entry.set_name is None else known_name(entry.set_name)
             holder = (None if name is None else sets.find(name)) or _unknown(name)
             stiffness, written = entry.stiffness, place.inside("stiffness")
             if isinstance(stiffness, str):
@@ -180,12 +180,6 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
             else:
                 value = float(stiffness)
                 yield SetLaw(LawKind.LINEAR, holder, written, "new", value, unknown=not value >= 0)
-
-
-def _has_gap(entry: SeabedSet) -> bool:
-    """Return True if a line below a SET= could not be used; it may be another SET=."""
-    values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
-    return UNKNOWN in values and None not in values
 
 
 class ResistanceValues(NamedTuple):
@@ -332,3 +326,24 @@ def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Exten
             [entry for _, entry, _, _ in found], [where for where, *_ in found], holders, later_wins(holders, count)
         )
     return extensions
+
+
+def rule_of_extension(
+    code: Code, keyword: str, *, blocks: bool = True
+) -> Callable[[Callable[[Any, Extension], Iterator[Problem]]], object]:
+    """Return a decorator that makes a rule of a function of a resolved deck and its blocks of an extension keyword.
+
+    A rule that only advises (`blocks` False) has the scene of the deck. Nothing is reported in decks without blocks.
+    """
+
+    def register(find: Callable[[Any, Extension], Iterator[Problem]]) -> object:
+        @rule(code, blocks=blocks)
+        @wraps(find)
+        def check(subject: Any) -> Iterable[Problem]:  # noqa: ANN401 - as the function of any rule
+            scene = subject if blocks else subject.scene
+            extension = scene.extensions.get(keyword)
+            return find(scene, extension) if extension else ()
+
+        return check
+
+    return register

@@ -59,6 +59,7 @@ _DEFAULT_HEAVE, _DEFAULT_PERIOD = 1.0, 10.0
 _PEAK_OVER_MEAN = 1.29
 """Ratio of peak period to mean zero up-crossing period of a Jonswap sea with a peakedness of 3.3."""
 _HALF_TURN, _WHOLE_TURN = 180.0, 360.0
+_MOTIONS = ("heave", "surge", "sway", "yaw", "roll", "pitch")
 
 
 def top_motion(
@@ -167,15 +168,14 @@ def _written(entry: VesselRao) -> list[list[float]]:
         found: list[list[float]] = np.column_stack([entry.lines.column(at) for at in range(14)]).tolist()
         return found
     return [
-        [number(each, "heading"), number(one, "frequency"), *_pairs(one.amplitudes, one.phases)]
+        [
+            number(each, "heading"),
+            number(one, "frequency"),
+            *(number(part, motion, 0.0) for motion in _MOTIONS for part in (one.amplitudes, one.phases)),
+        ]
         for each in entry.headings
         for one in each.frequencies
     ]
-
-
-def _pairs(amplitudes: object, phases: object) -> Iterator[float]:
-    for name in ("heave", "surge", "sway", "yaw", "roll", "pitch"):
-        yield from (number(amplitudes, name, 0.0), number(phases, name, 0.0))
 
 
 def _responses(rows: list[list[float]], heading: float, period: float) -> list[complex] | None:

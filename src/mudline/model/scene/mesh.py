@@ -46,7 +46,8 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
             place = where.inside("entries", index)
             if hasattr(entry, "nodes"):
                 table = cast("NodeRows", entry).nodes
-                for row in _add_rows(gathered, table.column(0), _coordinates(table), place, "nodes"):
+                coordinates = np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
+                for row in _add_rows(gathered, table.column(0), coordinates, place, "nodes"):
                     context.misread("NODE", place.inside("nodes", row, 0))
             elif line := _node_line(context, gathered, entry.generate, place):
                 if not _between(gathered, line):
@@ -64,11 +65,6 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
         repeats = repeats[[nodes.where_row(row) not in placeless for row in repeats.tolist()]]
     _report_repeats(context, nodes, repeats, "node")
     return nodes
-
-
-def _coordinates(table: Table) -> Floats:
-    """Return the coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
-    return np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
 
 
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
@@ -155,7 +151,11 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
         for index, entry in enumerate(cast("Elements", block).entries):
             place = where.inside("entries", index)
             if hasattr(entry, "elements"):
-                _add_elements(context, gathered, cast("ElementRows", entry), place)
+                table = cast("ElementRows", entry).elements
+                _check_labels(context, table, place)
+                ends = np.column_stack((table.column(1), table.column(2)))
+                for row in _add_rows(gathered, table.column(0), ends, place, "elements"):
+                    context.misread("ELEMENT", place.inside("elements", row, 0))
             else:
                 _add_pattern(context, gathered, entry.generate, place)
     own = sum(len(batch.ids) for batch in gathered.batches)
@@ -169,14 +169,6 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
         at = elements.indices(external.ids)
         length[at] = np.where(np.isnan(external.length), length[at], external.length)
     return MeshElements(elements, indices, length)
-
-
-def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, where: Where) -> None:
-    table = entry.elements
-    _check_labels(context, table, where)
-    ends = np.column_stack((table.column(1), table.column(2)))
-    for row in _add_rows(gathered, table.column(0), ends, where, "elements"):
-        context.misread("ELEMENT", where.inside("elements", row, 0))
 
 
 def _check_labels(context: Context, table: Table, where: Where) -> None:

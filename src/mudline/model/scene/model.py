@@ -13,22 +13,16 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import evaluated
 from mudline.language.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.language.rules import RULES, Rule, findings
+from mudline.model.scene.boundary import HeldNodes, check_boundaries, held_nodes
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import read_curves
 from mudline.model.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.model.scene.mesh import read_elements, read_nodes
-from mudline.model.scene.references import (
-    check_boundaries,
-    check_chains,
-    check_idents,
-    check_lines,
-    check_references,
-)
+from mudline.model.scene.references import check_chains, check_idents, check_lines, check_unread_lines
 from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.seabed import read_seabed
 from mudline.model.scene.sections import read_sections
-from mudline.model.scene.sets import read_sets
-from mudline.model.scene.unread_lines import check_unread_lines
+from mudline.model.scene.sets import check_references, read_sets
 
 if TYPE_CHECKING:
     from mudline.model.contact.input import ContactInput
@@ -51,6 +45,11 @@ class Scene(ResolvedDeck):
         if errors := len(self.errors()):
             counts.append(counted(errors, "error"))
         return outline(f"Scene of {cut(self.deck.file, 80)!r}", ", ".join([self.units, *counts]))
+
+    @cached_property
+    def held(self) -> list[HeldNodes]:
+        """Nodes that each line of `*BOUNDARY` in the deck itself holds."""
+        return list(held_nodes(self.deck, self.nodes))
 
     @cached_property
     def findings(self) -> list[Problem]:

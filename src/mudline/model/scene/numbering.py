@@ -108,7 +108,7 @@ class Definitions:
             values = np.concatenate([batch.values for batch in self.batches] or [np.zeros((0, width))])
         starts = np.array(self._starts, dtype=np.intp)
         ascending = _is_ascending(ids)
-        if ascending or _all_different(ids):
+        if ascending or np.diff(np.sort(ids)).all():
             rows = np.arange(len(ids), dtype=np.intp)
             if len(self.batches) > 1:  # they keep no memory of their own
                 bounds = zip(self.batches, self._starts, self._starts[1:], strict=False)
@@ -199,11 +199,6 @@ class Numbered:
 
 def _is_ascending(numbers: Ids | Indices) -> bool:
     return not np.count_nonzero(numbers[1:] <= numbers[:-1])
-
-
-def _all_different(ids: Ids) -> bool:
-    ordered = np.sort(ids)
-    return bool((ordered[1:] != ordered[:-1]).all())
 
 
 def picked(values: Iterable[float], index: Indices) -> Floats:

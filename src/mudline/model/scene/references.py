@@ -1,36 +1,42 @@
-"""Checks of names, labels and numbers in fields against those that the deck defines."""
+"""Checks of names, labels and numbers against those that the deck defines.
+
+They are in fields, and in lines that are not read: in these also equations, and settings whose name shows what their
+value must be.
+"""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+import re
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.language.codes.fields import SYN003
-from mudline.language.codes.lines import SYN001, SYN005
-from mudline.language.codes.references import REF001, REF005, REF006, REF010
+from mudline.language.codes.fields import SYN002, SYN006
+from mudline.language.codes.lines import SYN001
+from mudline.language.codes.references import REF001, REF002, REF005, REF006, REF010, REF015, REF019
 from mudline.language.deck.model import Deck, Opaque, raw_lines
-from mudline.language.deck.parameters import EvaluatedDeck, bare, folded, name_key
-from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.language.deck.parameters import NoValueError, Parameters, folded, name_key
+from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import idents_given, is_read, kinds_of, names_given
-from mudline.language.keywords.model import Block
-from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.keywords.contents import idents_given, is_read, kinds_of
+from mudline.language.keywords.fields import Setting
+from mudline.language.keywords.model import Block, record_schema
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.values import Label, Names
-from mudline.language.syntax.fields import canonical_key
+from mudline.language.keywords.values import Equation, Label, Names, number_meant
+from mudline.language.syntax.fields import FieldGroup, read_line
+from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
-from mudline.model.scene.numbering import Indices, Numbered
-from mudline.model.scene.sets import Sets
+from mudline.model.scene.deck_values import data_lines, file_name, find_file, not_found
+from mudline.model.scene.numbering import Numbered
+from mudline.model.scene.sets import Sets, sets_of_postprocessing
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import DragChains
     from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
-    from mudline.language.keywords.library.loads import Boundary, FixedValues
 
 
 CURVES = frozenset(
@@ -105,49 +111,12 @@ def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[P
             yield Problem(code, f"{names.thing} {shown(first.name)} is not used: {by}", None, severity, first.where)
 
 
-def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
-    """Report undefined names of sets; those in soil springs only with `with_soil`.
-
-    Postprocessing may have its own sets in addition to those of the model.
-    """
-    own: dict[str, str] | None = None
-    for name, where in ((use.name, use.where) for use in context.names[Names.SET].used):
-        section = context.deck.sections[where.section]
-        if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
-            continue
-        if section.name not in _OF_THE_MODEL and sets.find(name) is None:
-            own = sets_of_postprocessing(context.deck) if own is None else own
-            if name_key(name) in own or not context.deck.keywords():
-                continue
-        sets.check(name, where)
-
-
-_OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
-
-
-def sets_of_postprocessing(deck: Deck) -> dict[str, str]:
-    """Return the sets that sections other than the model define, by their folded names."""
-    sections = (section for section in deck.sections if section.name not in _OF_THE_MODEL)
-    names = (name for section in sections for block in section.blocks for name in _sets_defined_by(block))
-    return {name_key(name): bare(name) for name in names}
-
-
-def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
-    if not isinstance(block, Opaque):
-        yield from (name for _, name in names_given(block, Names.SET, "defines"))
-    elif block.keyword in catalogue.definers(Names.SET):
-        for line in block.lines:
-            key, equals, name = line.partition("=")
-            if equals and canonical_key(key) == Names.SET.name:
-                yield name
-
-
 def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
     """Report undefined nodes and elements that keywords refer to, except where nodes and sets are made."""
     for where, _, block in context.deck.every_block():
         if type(block) is Opaque or not _names_idents(type(block)):
             continue
-        for what, check in ((Names.NODE, _check_nodes), (Names.ELEMENT, _check_elements)):
+        for what, check in ((Names.NODE, check_nodes), (Names.ELEMENT, _check_elements)):
             named = [(ident, where._replace(path=path)) for path, ident in idents_given(block, what)]
             check(context, nodes if what is Names.NODE else elements, named)
 
@@ -174,7 +143,6 @@ def check_chains(context: Context) -> None:
 
 KEYWORD = "BOUNDARY"
 """Keyword with its own check: some nodes of its ranges may be undefined."""
-FREEDOMS = range(1, 7)
 
 
 def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
@@ -193,7 +161,7 @@ def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[
         context.report_missing(REF005, message, where, "ELEMENT", number, blocks=Blocks.NEVER)
 
 
-def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object, Where]]) -> None:
+def check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object, Where]]) -> None:
     """Report undefined nodes, numbers or labels; any other value could not be read and is skipped."""
     if not named:
         return
@@ -216,118 +184,6 @@ def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object
 def shows_nodes(context: Context, nodes: Numbered) -> bool:
     """Return True if the deck shows nodes: a deck without any has its model somewhere else."""
     return len(nodes) > 0 or "NODE" in context.deck.keywords()
-
-
-def check_boundaries(context: Context, nodes: Numbered) -> None:
-    """Report undefined nodes of `*BOUNDARY`, and degrees of freedom other than 1 to 6."""
-    blocks = context.blocks(KEYWORD, "LOAD CASE")
-    for where, block in blocks:
-        if not cast("Boundary", block).types and not context.deck.lost(where):
-            message = "*BOUNDARY is empty: give TYPE= and nodes below it, or remove it"
-            context.report(SYN001, message, where, Severity.WARNING)
-    named: list[tuple[object, Where]] = []
-    for place, entry, values in _conditions(blocks):
-        if values is None:
-            named.append((entry.node, place.inside("node")))
-            _check_freedom(context, entry.dof, place.inside("dof"))
-        else:
-            _check_range(context, nodes, values, place)
-            ends = enumerate((values.start, values.end))
-            named += [(end, place.inside(at)) for at, end in ends if isinstance(end, Label)]
-    _check_nodes(context, nodes, named)
-
-
-def _conditions(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where, Any, FixedValues | None]]:
-    """Yield place and entry of each line of `*BOUNDARY` that is read, and the values of a GEN=."""
-    for where, block in blocks:
-        for i, held in enumerate(cast("Boundary", block).types):
-            for j, entry in enumerate(held.entries):
-                place = where.inside("types", i, "entries", j)
-                if not hasattr(entry, "generate"):
-                    yield place, entry, None
-                elif entry.generate is not None:
-                    yield place.inside("generate"), entry, entry.generate
-
-
-class HeldNodes(NamedTuple):
-    """Line of `*BOUNDARY`: its place, the degree of freedom, the indices of its nodes, and the value and fixation."""
-
-    where: Where
-    dof: int
-    nodes: Indices
-    how: tuple[object, object]
-
-
-def held_nodes(deck: EvaluatedDeck, nodes: Numbered) -> Iterator[HeldNodes]:
-    """Yield the nodes, among those of a model, that each line of `*BOUNDARY` of a deck holds.
-
-    Lines whose form is not public are left out.
-    """
-    for place, entry, values in _conditions(deck.blocks(KEYWORD, "LOAD CASE")):
-        numbers: tuple[Any, ...]
-        if values is None:
-            numbers, dof, value, where = (entry.node, entry.node, 1), entry.dof, entry.value, place.inside("dof")
-        else:
-            at, step = freedom_and_step(values)
-            fields = (values.third, values.fourth, values.fifth, None)
-            numbers, dof, value, where = (
-                (values.start, values.end, cast("Any", step)),
-                fields[at - 2],
-                fields[at - 1],
-                place,
-            )
-        whole = all(isinstance(number, int) and abs(number) <= LARGEST_WHOLE for number in numbers)
-        if whole and numbers[2] > 0 and dof in FREEDOMS:
-            yield HeldNodes(where, int(cast("int", dof)), nodes.between(*numbers), (value or 0.0, entry.fixation))
-
-
-def _check_range(context: Context, nodes: Numbered, values: FixedValues, where: Where) -> None:
-    """Report undefined nodes of a GEN=, without building them, and its degree of freedom."""
-    at, step = freedom_and_step(values)
-    freedom = (values.third, values.fourth)[at - 2]
-    if freedom is None:
-        message = "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]"
-        context.report(SYN003, message, where)
-    else:
-        _check_freedom(context, freedom, where.inside(at))
-    start, end = values.start, values.end
-    if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)):
-        return
-    written = f"GEN= holds the nodes from {start} to {end} in steps of {step}"
-    if end < start or step < 1:
-        why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
-        context.report(REF010, f"{written}: there are none, {why}", where, Severity.ERROR)
-        return
-    existing = len(nodes.between(start, end, step)) if len(nodes) else 0
-    expected = (end - start) // step + 1
-    if existing < expected and shows_nodes(context, nodes) and not context.possible_definition("NODE"):
-        message = f"{written}: {expected - existing} of these {expected} are not defined; correct it, or define them"
-        context.report(REF006, message, where, Severity.WARNING if existing else None)
-
-
-def _check_freedom(context: Context, freedom: object, where: Where) -> None:
-    if _is_no_freedom(freedom):
-        expected = "expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)"
-        context.report(SYN005, f"{freedom} is not a degree of freedom: {expected}", where)
-
-
-def freedom_and_step(values: FixedValues) -> tuple[int, object]:
-    """Return the index of the degree of freedom in a GEN=, counted from 0, and the increment.
-
-    With four values the third is the degree of freedom only if the fourth cannot be.
-    """
-    third, fourth = values.third, values.fourth
-    if values.fifth is None and (
-        fourth is None or (third is not None and _is_no_freedom(fourth) and not _is_no_freedom(third))
-    ):
-        return 2, 1
-    return 3, 1 if third is None else third
-
-
-def _is_no_freedom(freedom: object) -> bool:
-    """Return True if a value is not a degree of freedom; an unreadable value may be one. Equations give 6.0 for 6."""
-    known = isinstance(freedom, int | float) and not math.isnan(freedom)
-    return known and freedom not in FREEDOMS
 
 
 def check_lines(context: Context) -> None:
@@ -354,3 +210,224 @@ def _check_name(context: Context, what: tuple[str, str, str], name: str, where: 
     message = f"{key} names no {thing}: {shown(name)} is not defined{context.hint(name, known)}; define it in {keyword}"
     source = context.possible_definition(keyword[1:])
     context.report(REF001, f"{message}; {source}" if source else message, where, Severity.WARNING)
+
+
+# ---------------------------------------------------------------------------------------------- lines that are not read
+
+_EQUATION = re.compile(r"=\[[^\[\]\r\n]*\]")
+_LONGEST = 4000
+"""Number of characters of a line that is checked: a longer one is data of another kind."""
+_DEFINING = ("MODEL", "LOAD CASE")
+_OF_RESULTS = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
+_WORTH = re.compile(r"[={]|[0-9OolI]\.[0-9OolI]")
+"""Pattern of a line that is checked."""
+_FREE = ("NAME", Names.FILE.name)
+"""Settings whose value may be any text."""
+_THINGS = ("GEN", *(kind.name for kind in (Names.SET, Names.ELEMENT, Names.NODE, Names.VESSEL)))
+"""Settings that begin a line about an object which has a curve."""
+
+
+def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> None:
+    """Check every line of a deck itself that is not read, except titles and other text for people.
+
+    `nodes` are those of the deck, None if other nodes are used.
+    """
+    looking = _Looking(context, sets)
+    for where, keyword, line in context.unread_lines:
+        holds = keyword == KEYWORD and is_of_vessels(context.written, where)
+        if len(line) > _LONGEST or not (holds or _WORTH.search(line)):
+            continue
+        kept = catalogue.opaque_keyword(context.written.sections[where.section].name, keyword)
+        if not (kept and kept.free_text):
+            looking.look(where, keyword, line)
+            if holds:
+                looking.condition(where, keyword, line, nodes)
+
+
+def is_of_vessels(deck: Deck, where: Where) -> bool:
+    """Return True if the kept lines of a `*BOUNDARY` are those of TYPE=VESSEL."""
+    block = deck.sections[where.section].blocks[where.block]
+    return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
+
+
+def _uses_any_curve(line: str) -> bool:
+    if "CURVE" not in line.upper() or len(line) > _LONGEST:
+        return False
+    groups = read_line(line, Span(0, len(line))).groups
+    return any(group.key == "CURVE" for group in groups) and _uses_curve(groups)
+
+
+def _uses_curve(groups: list[FieldGroup]) -> bool:
+    """Return True if CURVE= of a line uses a curve: after a number, a label, or the setting of an object.
+
+    If CURVE= comes first, it may name a new curve.
+    """
+    first = groups[0]
+    text = first.fields[0].text
+    return first.key in _THINGS or (not first.key and (read_number(text) is not None or Label.match(text) is not None))
+
+
+class _Looking:
+    def __init__(self, context: Context, sets: Sets) -> None:
+        self.context = context
+        self.sets = sets
+        self.parameters: Parameters | None = None
+
+    def look(self, where: Where, keyword: str, line: str) -> None:
+        """Check a line."""
+        for match in _EQUATION.finditer(line):
+            self._equation(match[0], where.inside(*match.span()))
+        known = catalogue.sections_of(keyword) is not None
+        _, groups, problems = read_line(line, Span(0, len(line)))
+        self._keyless(where, keyword, groups)
+        for problem in problems:  # an equation that is not closed; other marks may be text
+            if problem.code == SYN006 and problem.span and line.startswith("=[", problem.span.start):
+                self._warn(SYN006, problem.message, where.inside(*problem.span))
+        for group in groups:
+            for field in group.fields:
+                if field.text.startswith("{") and Label.match(field.text) and self.context.external_definers:
+                    self.context.report_label(REF006, field.text, where.inside(*field.span), "NODE")
+                if known and group.key not in _FREE and (number := number_meant(field.text)):
+                    message = f"{shown(field.text)} is not a number: write {number}"
+                    self._warn(SYN002, message, where.inside(*field.span))
+            value = group.fields[0]
+            if not known or not value.text or value.text.startswith("=["):
+                continue
+            place = where.inside(*value.span)
+            if group.key == Names.SET.name:
+                self._set(place, keyword, value.text)
+            elif group.key == Names.VESSEL.name:
+                self._vessel(place, keyword, value.text)
+            elif group.key == Names.FILE.name:
+                self._file(place, value.text)
+            elif group.key == "CURVE" and _uses_curve(groups):
+                self._curve(place, keyword, value.text)
+
+    def condition(self, where: Where, keyword: str, line: str, nodes: Numbered | None) -> None:
+        """Check the node that follows a vessel, first on its line, and the vessel if it is on the same line.
+
+        The form of the line is not public: a node, a vessel and degrees of freedom are what decks show.
+        """
+        first, *others = read_line(line, Span(0, len(line))).groups[0].fields
+        node = read_number(first.text)
+        if (node is None and not Label.match(first.text)) or (node is not None and not node.is_integer()):
+            return
+        if node is not None and nodes is not None and shows_nodes(self.context, nodes):
+            lacks = (nodes.indices(np.array([node])) < 0).any()
+            if lacks and not self.context.possible_definition("NODE", int(node)):
+                message = f"node {node:.0f} is not defined: define it in *NODE, or correct the number"
+                self._warn(REF006, message, where.inside(*first.span), lacks=f"{node:.0f}")
+        for field in others:
+            if field.text and read_number(field.text) is None and not field.text.startswith(("=[", "{")):
+                self._vessel(where.inside(*field.span), keyword, field.text)
+
+    def _keyless(self, where: Where, keyword: str, groups: list[FieldGroup]) -> None:
+        """Report a line of a keyword that is read, if the key before its first value is missing."""
+        section = self.context.written.sections[where.section].name
+        block = catalogue.block_class(section, keyword)
+        first = groups[0].fields[0]
+        alone = len(groups) > 1 and not groups[0].key and len(groups[0].fields) == 1 and first.text[:1].isalpha()
+        if block is None or not alone:
+            return
+        records = [record for slot in record_schema(block).slots for record in slot.record.values()]
+        for keys in (record_schema(record).keys for record in records):
+            slot = keys.get(groups[1].key)
+            if slot is not None and isinstance(slot.about, Setting) and slot.about.inline:
+                message = f"no line of *{keyword} begins so: write {next(iter(keys))}={first.text}"
+                self._warn(SYN001, message, where.inside(*first.span))
+                return
+
+    def _warn(
+        self, code: Code, message: str, where: Where, severity: Severity = Severity.WARNING, lacks: str = ""
+    ) -> None:
+        problem = Problem(
+            code, f"{message}; the line is not read", None, severity, where, blocks=Blocks.NEVER, lacks=lacks
+        )
+        self.context.note(problem)
+
+    def _equation(self, text: str, where: Where) -> None:
+        self.parameters = self.parameters or Parameters(self.context.written)
+        try:
+            self.parameters.evaluate(Equation(text), where)
+        except NoValueError as reason:
+            if reason.problem:
+                self.context.note(replace(reason.problem, blocks=Blocks.NEVER))
+
+    def _set(self, where: Where, keyword: str, name: str) -> None:
+        """Report an undefined set that a line names; postprocessing may have its own sets."""
+        if keyword in catalogue.definers(Names.SET) or not self._is_of_model(where, keyword, _OF_RESULTS):
+            return
+        of_results = self.context.written.sections[where.section].name in _OF_RESULTS
+        own = self._sets_of_results if of_results else {}
+        if self.sets.find(name) is None and name_key(name) not in own:
+            hint = self.context.hint(name, self.sets.names) or self.context.hint(name, own)
+            message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS"
+            self._warn(REF001, message, where, lacks=name)
+
+    @cached_property
+    def _sets_of_results(self) -> dict[str, str]:
+        return sets_of_postprocessing(self.context.deck)
+
+    def _is_of_model(self, where: Where, keyword: str, more: Collection[str] = ()) -> bool:
+        """Return True if a line's section uses objects of the model, or is in `more`, and its keyword makes none.
+
+        A deck without a model is a part of a job, and so is a deck that continues another one that is not known.
+        """
+        section = self.context.written.sections[where.section].name
+        kept = catalogue.opaque_keyword(section, keyword)
+        makes = kept is not None and (kept.name_settings or kept.makes)
+        shown_ = bool(self.context.deck.keywords()) and not self.context.restart
+        return (section in _DEFINING or section in more) and not makes and shown_
+
+    def _vessel(self, where: Where, keyword: str, name: str) -> None:
+        definers = catalogue.definers(Names.VESSEL)
+        if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
+            return
+        vessels = self.context.names[Names.VESSEL].known
+        if vessels and name_key(name) not in vessels:
+            message = f"vessel {shown(name)} is not defined{self.context.hint(name, vessels)}"
+            self._warn(REF019, message, where, lacks=name)
+
+    def _curve(self, where: Where, keyword: str, name: str) -> None:
+        """Report an undefined curve that a line of the model or of a load case uses.
+
+        Nothing is reported if another unread line may define it.
+        """
+        if not self._is_of_model(where, keyword):
+            return
+        key, kinds = name_key(name), (*CURVES, Names.CURVE)
+        definers = {keyword for kind in kinds for keyword in catalogue.definers(kind)}
+        if key not in self.curves and key not in self._other_words and self.context.unread.isdisjoint(definers):
+            meant = self.context.hint(name, self.curves)
+            message = f"curve {shown(name)} is not defined{meant}: correct the name, or define it"
+            self._warn(REF002, message, where, lacks=name)
+
+    @cached_property
+    def curves(self) -> dict[str, str]:
+        """Curves of all kinds that the deck defines, by their folded names."""
+        kinds = self.context.names_of(CURVES | {Names.CURVE})
+        return {key: name for names in kinds for key, name in names.known.items()}
+
+    @cached_property
+    def _other_words(self) -> set[str]:
+        """Texts in unread lines that use no curve: a curve with one of these names may be defined there."""
+        words: set[str] = set()
+        for _, _, block in self.context.deck.every_block():
+            for line in data_lines(raw_lines(block)):
+                if not _uses_any_curve(line):
+                    pieces = line.replace("=", ",").split(",")
+                    words.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
+        return words
+
+    def _file(self, where: Where, written: str) -> None:
+        """Report a missing file; a path with folders of another machine is looked for like any other.
+
+        A file of postprocessing may be one that the run makes.
+        """
+        folder = self.context.written.folder
+        name = file_name(written)
+        given = self.context.written.sections[where.section].name in catalogue.CERTAIN_SECTIONS
+        if folder is None or not given or "%" in name or find_file(folder, name) is not None:
+            return
+        message, severity = not_found(folder, name)
+        self._warn(REF015, message, where, severity)

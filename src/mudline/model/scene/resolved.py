@@ -28,7 +28,7 @@ from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.model.scene.references import CURVES, THINGS, HeldNodes, held_nodes, undefined
+from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import (
     SectionTable,
@@ -63,9 +63,6 @@ class ByName(Mapping[str, Value]):
         if found is None:
             raise self._missing(name)
         return found[1]
-
-    def __contains__(self, name: object) -> bool:
-        return self._find(name) is not None
 
     def __iter__(self) -> Iterator[str]:
         return (name for name, _ in self._entries.values())
@@ -161,6 +158,11 @@ class ResolvedDeck:
         return any(map(catalogue.gives_laws, self.context.unread))
 
     @property
+    def shows_elements(self) -> bool:
+        """True if the deck shows all elements that its laws are for: none come from `*LINES` or another deck."""
+        return bool(len(self.element_ids)) and not self.set_table.everything.open
+
+    @property
     def lacks(self) -> bool:
         """True if the deck uses something that it does not define, or gives a curve two forces at one ratio."""
         curves = {folded(each.name) for each in self.laws.curves if not each.embedment}
@@ -168,11 +170,6 @@ class ResolvedDeck:
         missing = any(each.lacks for each in self.noticed) or not self.referenced <= curves
         others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
         return missing or clashing or bool(self.context.excused) or any(True for _ in others)
-
-    @cached_property
-    def held(self) -> list[HeldNodes]:
-        """Nodes that each line of `*BOUNDARY` in the deck itself holds."""
-        return list(held_nodes(self.deck, self.nodes))
 
     @cached_property
     def referenced(self) -> set[str]:
@@ -282,8 +279,6 @@ class ResolvedDeck:
     def replaced(self) -> list[Replaced]:
         """Laws of extension keywords that replace other laws of elements; the last one takes effect."""
         replaced_laws: list[Replaced] = []
-        if not self.extensions:
-            return replaced_laws
         soft = self.laws_given != LawKind.RIGID
         for keyword, extension in reversed(self.extensions.items()):
             law, field = facts_of(keyword).gives_law

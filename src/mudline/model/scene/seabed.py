@@ -23,7 +23,7 @@ from mudline.basics.short_repr import counted, short_repr
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.text import shown
 from mudline.language.syntax.source import Source
-from mudline.model.contact.seabed import heading
+from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed, heading
 from mudline.model.scene.context import Context
 from mudline.model.scene.data_files import number_of
 from mudline.model.scene.deck_values import file_name, find_file, number
@@ -95,12 +95,9 @@ class SeabedShape:
     __repr__ = short_repr
 
 
-_FLAT = SeabedShape()
-
-
 def read_seabed(context: Context) -> SeabedShape:
     """Return the seabed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else the surface's."""
-    shape = _FLAT
+    shape = SeabedShape()
     unreadable: list[tuple[Where, str]] = []
     for where, surface in context.surfaces:
         if surface.profile is not None:
@@ -195,8 +192,6 @@ def parse_profile(data: bytes, name: str, columns: int) -> Floats:
 
 def made_seabed(seabed: SeabedShape) -> Seabed:
     """Return the evaluator's seabed for one that is not flat; raises ValueError if its numbers form no seabed."""
-    from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed  # noqa: PLC0415 - only now is it needed
-
     if seabed.kind is SeabedKind.SLOPING:
         return SlopingSeabed(seabed.slope, seabed.direction)
     if seabed.kind is SeabedKind.PROFILE:
@@ -248,7 +243,10 @@ def on_land(seabed: SeabedShape, level: float, places: Floats, ends: Indices) ->
 
     Between the nodes of an element, `ends` (m, 2) of `places` (n, 3), the seabed is taken as straight.
     """
-    if not _may_rise_above(seabed, level):
+    if seabed.missing or not level < np.inf or (seabed.kind is SeabedKind.SURFACE and find_spec("scipy") is None):
+        return None
+    column = {SeabedKind.PROFILE: 1, SeabedKind.SURFACE: 0}.get(seabed.kind)
+    if column is not None and not (seabed.points[:, column] > level).any():
         return None
     try:
         heights = made_seabed(seabed).elevation(places[:, 1], places[:, 2]) - level
@@ -259,14 +257,6 @@ def on_land(seabed: SeabedShape, level: float, places: Floats, ends: Indices) ->
     with np.errstate(divide="ignore", invalid="ignore"):
         share: Floats = np.nan_to_num(np.clip(high / (high - low), 0.0, 1.0))
     return share
-
-
-def _may_rise_above(seabed: SeabedShape, level: float) -> bool:
-    """Return True if some of the seabed may be dry; False if its points are not known."""
-    if seabed.missing or not level < np.inf or (seabed.kind is SeabedKind.SURFACE and find_spec("scipy") is None):
-        return False
-    column = {SeabedKind.PROFILE: 1, SeabedKind.SURFACE: 0}.get(seabed.kind)
-    return column is None or bool((seabed.points[:, column] > level).any())
 
 
 REACH = 100.0

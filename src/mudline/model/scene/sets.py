@@ -1,4 +1,4 @@
-"""Element sets: lists, ranges and subsets as indices of elements; names are compared without case."""
+"""Element sets: lists, ranges and subsets as indices of elements; names, compared without case, and their check."""
 
 from __future__ import annotations
 
@@ -11,11 +11,14 @@ import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF001, REF005, REF008, REF009, REF010
-from mudline.language.deck.parameters import folded, name_key
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import bare, folded, name_key
 from mudline.language.diagnostics import Problem, Severity, Where
-from mudline.language.keywords.contents import is_partly_unknown, set_slots
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import is_partly_unknown, names_given, set_slots
 from mudline.language.keywords.text import advice_on, shown
-from mudline.language.keywords.values import known_name
+from mudline.language.keywords.values import Names, known_name
+from mudline.language.syntax.fields import canonical_key
 from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import Indices, Numbered, distinct
 
@@ -116,6 +119,40 @@ def read_sets(context: Context, elements: Numbered, external: ExternalElements |
     return sets
 
 
+def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
+    """Report undefined names of sets; those in soil springs only with `with_soil`.
+
+    Postprocessing may have its own sets in addition to those of the model.
+    """
+    own = sets_of_postprocessing(context.deck)
+    for name, where in ((use.name, use.where) for use in context.names[Names.SET].used):
+        section = context.deck.sections[where.section]
+        if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
+            continue
+        if section.name in _OF_THE_MODEL or not (name_key(name) in own or not context.deck.keywords()):
+            sets.check(name, where)
+
+
+_OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
+
+
+def sets_of_postprocessing(deck: Deck) -> dict[str, str]:
+    """Return the sets that sections other than the model define, by their folded names."""
+    sections = (section for section in deck.sections if section.name not in _OF_THE_MODEL)
+    names = (name for section in sections for block in section.blocks for name in _sets_defined_by(block))
+    return {name_key(name): bare(name) for name in names}
+
+
+def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
+    if not isinstance(block, Opaque):
+        yield from (name for _, name in names_given(block, Names.SET, "defines"))
+    elif block.keyword in catalogue.definers(Names.SET):
+        for line in block.lines:
+            key, equals, name = line.partition("=")
+            if equals and canonical_key(key) == Names.SET.name:
+                yield name
+
+
 class _SetReader:
     """Reader of sets: it collects the definitions of each name, then expands them, subsets first."""
 
@@ -131,7 +168,16 @@ class _SetReader:
         everything = np.arange(len(self.elements), dtype=np.intp)
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
         for where, block in context.blocks("ELEMENT SETS"):
-            self._collect(cast("ElementSets", block).sets, where)
+            for index, entry in enumerate(cast("ElementSets", block).sets):
+                place = where.inside("sets", index)
+                name = known_name(entry.name)
+                if name is None:
+                    context.unread.add("ELEMENT SETS")
+                elif name_key(name) == ALL:
+                    message = "set ALL is predefined and holds every element: choose another name"
+                    context.report(REF009, message, place.inside("name"))
+                else:
+                    self.definitions.setdefault(name_key(name), []).append((entry, place))
         for key, name in context.opaque_set_names.items():
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
@@ -139,21 +185,6 @@ class _SetReader:
             if key not in named:
                 self._expand(key)
         return self.sets
-
-    def _collect(self, entries: Sequence[ElementSet], block: Where) -> None:
-        """Collect the sets of a block by their names."""
-        for index, entry in enumerate(entries):
-            where = Where(block.section, block.block, ("sets", index))
-            name = known_name(entry.name)
-            if name is None:
-                self.context.unread.add("ELEMENT SETS")
-                continue
-            key = name_key(name)
-            if key == ALL:
-                message = "set ALL is predefined and holds every element: choose another name"
-                self.context.report(REF009, message, where.inside("name"))
-                continue
-            self.definitions.setdefault(key, []).append((entry, where))
 
     def _expand(self, key: str) -> None:
         """Expand a set after its subsets, with an explicit stack, as chains may be long."""

@@ -85,9 +85,6 @@ def attached(scene: ResolvedDeck) -> Attached:
     for point_mass, node in _masses(scene):
         if node is not None:
             at_nodes[point_mass.type_ == "NO WEIGHT MASS" :, node] += number(point_mass, "mass", 0.0)
-    if not at_nodes.any():
-        nothing = np.zeros(len(scene.element_ids))
-        return Attached(nothing, nothing)
     ends = np.where(scene.element_nodes < 0, len(scene.node_ids), scene.element_nodes)
     with np.errstate(all="ignore"):
         shares = at_nodes / np.bincount(ends.ravel(), minlength=at_nodes.shape[1])

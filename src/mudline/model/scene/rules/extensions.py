@@ -1,29 +1,26 @@
-"""Extension keywords: their needs, the laws they exclude, and the values of suction, unloading and soil."""
+"""Suction, unloading and soil of extension keywords: their values, and the laws that they exclude."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import wraps
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity
-from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
+from mudline.model.scene.laws import Extension, rule_of_extension
 from mudline.model.scene.numbering import Mask
-from mudline.model.scene.rules.laws import lacks_diameter
+from mudline.model.scene.rules.fields import lacks_diameter
 
 if TYPE_CHECKING:
     from mudline.model.contact.laws import Parameter
     from mudline.model.scene.curves import SceneCurve
-    from mudline.model.scene.laws import Extension
     from mudline.model.scene.resolved import ResolvedDeck
 
 
-EXT001 = Code("EXT001", "extension-needs-elastic", Severity.ERROR)
 EXT004 = Code("EXT004", "bad-cutoff", Severity.ERROR)
 EXT005 = Code("EXT005", "suction-incomplete", Severity.ERROR)
 EXT006 = Code("EXT006", "suction-conflict", Severity.ERROR)
@@ -32,70 +29,10 @@ EXT009 = Code("EXT009", "unloading-conflict", Severity.ERROR)
 _LOWEST, _HIGHEST = 0.01, 0.99
 
 
-def rule_of_extension(
-    code: Code, keyword: str, *, blocks: bool = True
-) -> Callable[[Callable[[Any, Extension], Iterator[Problem]]], object]:
-    """Return a decorator that makes a rule of a function of a resolved deck and its blocks of an extension keyword.
-
-    A rule that only advises (`blocks` False) has the scene of the deck. Nothing is reported in decks without blocks.
-    """
-
-    def register(find: Callable[[Any, Extension], Iterator[Problem]]) -> object:
-        @rule(code, blocks=blocks)
-        @wraps(find)
-        def check(subject: Any) -> Iterable[Problem]:  # noqa: ANN401 - as the function of any rule
-            scene = subject if blocks else subject.scene
-            extension = scene.extensions.get(keyword)
-            return find(scene, extension) if extension else ()
-
-        return check
-
-    return register
-
-
 def of_elements(scene: ResolvedDeck, elements: Mask, problem: Problem) -> Iterator[Problem]:
     """Yield a problem of the elements (m,) of a mask, if there are any; its message says what they have."""
     if elements.any():
         yield replace(problem, message=f"{scene.describe(elements)} {problem.message}")
-
-
-@rule(EXT001, blocks=True)
-def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
-    """An extension keyword is in a model without an elastic seabed.
-
-    The laws of the extensions act on penetration, and nothing penetrates a rigid seabed or a missing one. Write
-    *SEABED PROPERTIES with TYPE=ELASTIC, or remove the keyword.
-
-    Example on seabed:
-        - TYPE=RIGID
-        + TYPE=ELASTIC
-          SET=ALL
-        + STIFFNESS=50000.0
-        | FRICTION=0.3, 0.6
-        |*SEABED SUCTION
-        | SET=ALL
-        | COHESION=5000.0
-
-    Finds: 3:7
-    """
-    reading, types = scene.context, scene.laws.types
-    if "ELASTIC" in types:
-        return
-    unclear = "SEABED PROPERTIES" in scene.deck.keywords() or "SEABED PROPERTIES" in reading.misplaced
-    if unclear and "RIGID" not in types:
-        return
-    supplier = "" if "RIGID" in types else reading.possible_definition("ELASTIC SURFACE")
-    what = "the seabed is rigid" if "RIGID" in types else "the model has none"
-    blocks = scene.deck.blocks_with("extension")
-    names = " and ".join(dict.fromkeys(f"*{block.keyword}" for _, block in blocks))
-    for where, _ in blocks[:1]:
-        needs = "needs" if len(names.split(" and ")) == 1 else "need"
-        message = f"{names} {needs} an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
-        if supplier:
-            yield Problem(EXT001, f"{message}; {supplier}", None, Severity.WARNING, where)
-        else:
-            rigid = (place for place in types.get("RIGID", ()) if place.section < len(scene.deck.own_sections))
-            yield Problem(EXT001, message, where=next(rigid, where))
 
 
 @rule_of_extension(EXT004, "SEABED SUCTION")
@@ -158,8 +95,7 @@ def suction_incomplete(scene: ResolvedDeck, extension: Extension) -> Iterator[Pr
                 yield Problem(EXT005, message, where=cohesion)
             elif unsized.any():
                 what = scene.describe(unsized)
-                message = f"COHESION= needs the external diameter, and {what} none: give Do (or Dd) in *GEOMETRIC SETS"
-                yield lacks_diameter(scene, EXT005, message, cohesion)
+                yield lacks_diameter(scene, EXT005, f"COHESION= needs the external diameter, and {what} none", cohesion)
         if user and "regularisation" in lacks:
             yield Problem(EXT005, "REGULARISATION= is missing: with user units it has no default; give it", where=title)
 

@@ -1,31 +1,41 @@
-"""Values, names and files at fault: ranges of fields, undefined names, pipes without a wall."""
+"""Values, names, files and sections at fault: ranges, undefined names, missing diameters, pipes without a wall."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.language.codes.references import REF015
+from mudline.language.codes.references import REF002, REF015, REF019
+from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_have_no_length
 from mudline.language.keywords.contents import is_read, range_faults
+from mudline.language.keywords.text import advice_on, shown
+from mudline.language.keywords.values import Names, number_meant
 from mudline.language.rules import rule
+from mudline.model.contact.input import LawKind
+from mudline.model.contact.laws import law_named
 from mudline.model.scene.deck_values import missing_files, not_found
-from mudline.model.scene.references import THINGS, undefined
+from mudline.model.scene.laws import NOTHING
+from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.sections import format_of
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.curvilinear import CurvilinearNodes
     from mudline.language.keywords.library.geometric_sets import GeometricSets
+    from mudline.language.keywords.library.seabed_properties import ElasticSurface
     from mudline.language.keywords.library.tapered_joints import TaperedJoints
     from mudline.language.keywords.model import Part
     from mudline.model.scene.resolved import ResolvedDeck
 
 
+SBD004 = Code("SBD004", "missing-embedment", Severity.ERROR)
+SBD009 = Code("SBD009", "missing-diameter", Severity.ERROR)
 SBD010 = Code("SBD010", "negative-property", Severity.ERROR)
 
 _GEOMETRY = "geometry"
@@ -82,6 +92,35 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(REF015, message, None, severity, where, blocks=blocks)
 
 
+@rule(SBD004, blocks=True)
+def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
+    """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
+
+    The first field of *ELASTIC SURFACE may be empty only if curves of *EMBEDMENT carry the elements. Otherwise nothing
+    holds them vertically, and a static run has no solution. Give a stiffness, here or with the newer keywords.
+
+    Example:
+         $MODEL
+        -*ELASTIC SURFACE
+        - , 0.3, 0.6
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.6
+
+    Finds: 2:1
+    """
+    reading = scene.context
+    embedment = any(curve.embedment for curve in scene.laws.curves) or "EMBEDMENT" in reading.unread
+    for where, block in scene.context.blocks("ELASTIC SURFACE"):
+        properties = cast("ElasticSurface", block).properties
+        lacking = getattr(properties, "stiffness", None) is None
+        if lacking and not embedment:
+            message = "no stiffness here and no *EMBEDMENT in the model: nothing carries the elements; give a stiffness"
+            yield reading.missing(SBD004, message, where, "EMBEDMENT")
+
+
 GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)
 GEO004 = Code("GEO004", "zero-length-element", Severity.ERROR)
 
@@ -136,14 +175,9 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 10:2
     """
-    suspects = ~(scene.length > 0.0)
-    if not np.count_nonzero(suspects):
-        return
-    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & suspects)
+    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & ~(scene.length > 0.0))
     first, second = scene.element_nodes[known].T
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
-    if not same.size:
-        return
     joints = [keyword for keyword in scene.deck.keywords() if may_have_no_length(keyword)]
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
     reported: set[Where] = set()
@@ -158,7 +192,64 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(GEO004, message, None, Severity.WARNING if joints else None, where)
 
 
-REF019 = Code("REF019", "undefined-name", Severity.ERROR)
+@rule(SBD009, blocks=True)
+def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
+    """Elements follow a force-embedment curve and have no external diameter.
+
+    The embedment ratio is a depth divided by the external diameter: without a diameter there is no ratio, and no force.
+    The diameter is Do of *GEOMETRIC SETS, or for OPTION=FLEXIBLE without Do the drag diameter Dd, and it must not be 0.
+    Give the elements a section, or put them into a set that has one.
+
+    Example on clay:
+         $MODEL
+        |*NODE
+        | 1, -0.05, 0.0
+        | 5, -0.05, 40.0
+        | GEN=1, 5
+        |*ELEMENT
+        | 1, 1, 2
+        | GEN=1, 4
+        |*ELEMENT SETS
+        | SET=Flowline
+        - GEN=1, 3
+        + GEN=1, 4
+        |*GEOMETRIC SETS
+        | OPTION=RIGID
+        | SET=Flowline
+        | 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+
+    Finds: 24:12
+    """
+    sections = scene.section_table
+    lacking = np.isnan(sections.diameter) & ~sections.faulty
+    holders = (scene.set_table.find(section.name) for section in sections.sections)
+    if not np.count_nonzero(lacking) or any(holder.faulty for holder in holders if holder):
+        return
+    for kind, _, extension, _ in scene.replaced:
+        name = kind.name.lower()
+        for index, where in enumerate(extension.places) if law_named(name).needs_diameter else ():
+            bare = np.flatnonzero((scene.law == kind) & lacking & (extension.of_element == index))
+            if bare.size:
+                message = f"{scene.describe(bare)} a {name} and no external diameter"
+                yield lacks_diameter(scene, SBD009, message, where.inside("set"))
+    missing = np.flatnonzero((scene.law == LawKind.CURVE) & lacking)
+    if not missing.size:
+        return
+    missing = missing[np.argsort(scene.laws.of_element[missing], kind="stable")]
+    begins = np.flatnonzero(np.diff(scene.laws.of_element[missing])) + 1
+    for elements in np.split(missing, begins):
+        index = int(scene.laws.of_element[elements[0]])
+        message = f"{scene.describe(elements)} a curve and no external diameter"
+        yield lacks_diameter(scene, SBD009, message, scene.laws.set_laws[index].where)
+
+
+def lacks_diameter(scene: ResolvedDeck, code: Code, message: str, where: Where) -> Problem:
+    """Return the problem of an unknown external diameter that a law needs, wherever it may be given."""
+    message += ": give Do (or Dd) in *GEOMETRIC SETS"
+    if scene.section_table.open:
+        message += "; a section belongs to a set whose elements this deck does not show"
+        return Problem(code, message, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
+    return replace(scene.context.missing(code, message, where, "GEOMETRIC SETS"), blocks=Blocks.ALWAYS)
 
 
 @rule(REF019, blocks=True)
@@ -204,3 +295,38 @@ def _cables(scene: ResolvedDeck) -> Iterator[Problem]:
                     message = f"cable {cable:g} is not defined: define it in *CABLE, or correct the number"
                     severity = Severity.WARNING if doubt else None
                     yield Problem(REF019, message, None, severity, at, blocks=Blocks.NEVER, lacks=f"{cable:g}")
+
+
+@rule(REF002, blocks=True)
+def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
+    """STIFFNESS=, or another setting that takes a curve, names a curve that the deck does not define.
+
+    The elements of the set then have no seabed. A STIFFNESS= that is not a number is taken for the name of a curve, so
+    a slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name. It is a warning
+    if an unread line may define the curve. The curves of *MOMENT-CURVATURE, *FORCE-STRAIN and the like are looked up in
+    the same way; the contact with the seabed does not depend on them.
+
+    Example on clay:
+        - STIFFNESS=Caly
+        + STIFFNESS=Clay
+
+    Finds: 10:12
+    """
+    yield from undefined(scene.context, CURVES, REF002)
+    names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.name and not curve.embedment}
+    laws = scene.laws.set_laws
+    lost = [index for index, law in enumerate(laws) if law.kind is LawKind.CURVE and law.curve == NOTHING]
+    followed = {laws[index].where for index in lost if (scene.laws.of_element == index).any()}
+    unused = [name for key, name in names.items() if key not in scene.referenced]
+    elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
+    unused_hint = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
+    for name, where in ((use.name, use.where) for use in scene.context.names[Names.CURVE].used):
+        if folded(name) in names:
+            continue
+        hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else unused_hint)
+        number = number_meant(name)
+        number = f"if it is a number, write {number}" if number else ""
+        advice = advice_on(name) or number or "*SEABED STIFFNESS has no such curve"
+        message = f"curve {shown(name)} is not defined{hint}: {advice}"
+        problem = scene.context.missing(REF002, message, where, "SEABED STIFFNESS", name)
+        yield replace(problem, blocks=Blocks.ALWAYS) if where in followed else problem

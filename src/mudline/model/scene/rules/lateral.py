@@ -10,14 +10,15 @@ import numpy as np
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.contents import is_partly_unknown
 from mudline.model.scene.deck_values import number
+from mudline.model.scene.laws import Extension, rule_of_extension
 from mudline.model.scene.numbering import Floats, Mask
-from mudline.model.scene.rules.extensions import of_elements, rule_of_extension
-from mudline.model.scene.rules.laws import extends_rigid, lacks_diameter
+from mudline.model.scene.rules.extensions import of_elements
+from mudline.model.scene.rules.fields import lacks_diameter
+from mudline.model.scene.rules.seabed import extends_rigid
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_lateral import FrictionSet, TrenchSet
     from mudline.model.contact.input import LawAssignment
-    from mudline.model.scene.laws import Extension
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -66,9 +67,8 @@ def bad_trench(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     bare, locked = _without_spring(scene, extension)
     for entry, where, held in extension.blocks():
         yield from _of_block(cast("TrenchSet", entry), where)
-        if np.any(both := held & bare):
-            message = f"{scene.describe(both)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
-            yield _of_friction(scene, message, where.inside("set"))
+        message = "a trench and no lateral friction spring: give *SEABED FRICTION for them"
+        yield from of_elements(scene, held & bare, _of_friction(scene, message, where.inside("set")))
         if np.any(both := held & locked):
             yield _of_friction(scene, f"{_LOCKED}: {scene.describe(both, '', '').rstrip()}", where.inside("geometry"))
 
@@ -234,17 +234,18 @@ def bad_breakout(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]
                 message = f"{name.upper()}= has no effect under LATERAL=COULOMB: write LATERAL=PEAK-RESIDUAL or F114"
                 yield Problem(EXT013, message, None, Severity.WARNING, where.inside(name))
             continue
-        for name, message in _breakout_faults(friction):
+        for name, message in () if is_partly_unknown(friction) else _breakout_faults(friction):
             yield Problem(EXT013, message, where=where.inside(name))
+        if friction.criterion == "ELLIPSE":
+            message = "a breakout across the line has no ellipse: write CRITERION=BOX"
+            yield Problem(EXT013, message, where=where.inside("criterion"))
         if trench is not None:
             words = "a trench too, whose resistance a breakout excludes: remove one of the two"
             problem = Problem(EXT013, words, where=where.inside("lateral"))
             yield from of_elements(scene, held & (trench.of_element >= 0), problem)
         bare = held & np.isnan(scene.diameter)
         if friction.lateral == "F114" and bare.any():
-            message = (
-                f"{scene.describe(bare)} no external diameter for LATERAL=F114: give Do (or Dd) in *GEOMETRIC SETS"
-            )
+            message = f"{scene.describe(bare)} no external diameter for LATERAL=F114"
             yield lacks_diameter(scene, EXT013, message, where.inside("lateral"))
 
 
@@ -253,9 +254,7 @@ def _breakout_faults(friction: FrictionSet) -> Iterator[tuple[str, str]]:
     (peak, at), (residual, end) = (
         (number(part, "factor"), number(part, "displacement")) for part in (friction.peak, friction.residual)
     )
-    if is_partly_unknown(friction):
-        pass
-    elif friction.lateral == "F114":
+    if friction.lateral == "F114":
         if np.isnan(peak):
             yield "lateral", "LATERAL=F114 needs the factor at breakout: give PEAK="
         if friction.residual is not None or not np.isnan(at):
@@ -267,5 +266,3 @@ def _breakout_faults(friction: FrictionSet) -> Iterator[tuple[str, str]]:
         yield "residual", f"the residual is above that of the peak, {peak!r}: correct one of the two"
     elif end <= at:
         yield "residual", f"the residual is reached no later than the peak, {at!r}: correct one of the two"
-    if friction.criterion == "ELLIPSE":
-        yield "criterion", "a breakout across the line has no ellipse: write CRITERION=BOX"

@@ -1,4 +1,4 @@
-"""The shape of the seabed: slopes, profiles, planes."""
+"""The seabed of a model: its type, which laws and keywords need to be elastic, and its shape."""
 
 from __future__ import annotations
 
@@ -9,16 +9,206 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.language.deck.parameters import folded
-from mudline.language.diagnostics import Blocks, Code, Problem, Severity
+from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.source import BINARY
 from mudline.model.scene.deck_values import file_name, missing_files, number
+from mudline.model.scene.laws import typed_blocks
 from mudline.model.scene.seabed import COMPILED, SeabedKind, SeabedShape, made_seabed
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.seabed_curves import Embedment
     from mudline.language.keywords.library.seabed_surface import SeabedPlanes, SeabedProfile
+    from mudline.model.scene.curves import SceneCurve
     from mudline.model.scene.resolved import ResolvedDeck
+
+
+SBD001 = Code("SBD001", "rigid-with-curve", Severity.ERROR)
+SBD002 = Code("SBD002", "two-seabed-types", Severity.ERROR)
+SBD003 = Code("SBD003", "missing-type", Severity.ERROR)
+SBD005 = Code("SBD005", "embedment-needs-elastic", Severity.ERROR)
+EXT001 = Code("EXT001", "extension-needs-elastic", Severity.ERROR)
+
+
+def extends_rigid(scene: ResolvedDeck) -> bool:
+    """Return True if EXT001 reports a rigid seabed: faults of laws that then have no effect are not reported."""
+    extension = bool(scene.deck.blocks_with("extension"))
+    return extension and "RIGID" in scene.laws.types and "ELASTIC" not in scene.laws.types
+
+
+@rule(SBD001, blocks=True)
+def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
+    """A rigid seabed has a force-embedment curve, or a value of an elastic seabed.
+
+    Nothing penetrates a rigid seabed, so a curve has no meaning there. It is an error, as either the curve or the type
+    is wrong. STIFFNESS= with a number, LATERAL= and SUCTION= have no effect and are a warning. Choose TYPE=ELASTIC, or
+    remove the line.
+
+    Example on clay:
+        - TYPE=RIGID
+        + TYPE=ELASTIC
+
+    Finds: 10:12
+    """
+    blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types and not extends_rigid(scene) else ()
+    for where, properties, type_ in blocks:
+        for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
+            place = where.inside("sets", index)
+            suction = entry.suction and entry.suction.stiffness
+            for name, value in (("stiffness", entry.stiffness), ("lateral", entry.lateral), ("suction", suction)):
+                inner = place.inside(name)
+                if isinstance(value, str):
+                    message = f"curve {shown(value)} on a rigid seabed: a force-embedment curve needs TYPE=ELASTIC"
+                    yield Problem(SBD001, message, where=inner)
+                elif value:
+                    message = f"{name.upper()}= has no effect on a rigid seabed: it needs TYPE=ELASTIC"
+                    yield Problem(SBD001, message, None, Severity.WARNING, inner)
+
+
+@rule(SBD002, blocks=True)
+def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
+    """The model has a rigid and an elastic seabed.
+
+    A model has one of them for all its elements, given by TYPE= or by *RIGID SURFACE and *ELASTIC SURFACE. Usually a
+    block was pasted from another deck. Remove one of them; a hard part of an elastic seabed takes a high stiffness.
+
+    Example on seabed:
+          STIFFNESS=50000.0
+        -*SEABED PROPERTIES
+        - TYPE=RIGID
+        - SET=ALL
+
+    Finds: 7:7
+    """
+    if len(scene.laws.types) < 2:
+        return
+    places = sorted((where, name) for name, type_places in scene.laws.types.items() for where in type_places)
+    where, name = next(((where, name) for where, name in places if name != places[0][1]), (Where(), ""))
+    if not name:
+        return
+    present, earlier = ("a rigid", "an elastic") if name == "RIGID" else ("an elastic", "a rigid")
+    message = f"{present} seabed after {earlier} one: a model has one of them; remove the other"
+    if where.section == places[0][0].section:
+        yield Problem(SBD002, message, where=where)
+    else:
+        message += " (inferred: the $MODEL sections of a file make one model)"
+        yield Problem(SBD002, message, None, Severity.WARNING, where)
+
+
+@rule(SBD003, blocks=True)
+def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
+    """*SEABED PROPERTIES lacks the type of the seabed, rigid or elastic.
+
+    The type has no default: write TYPE=RIGID or TYPE=ELASTIC on the first line. A later block without TYPE= keeps the
+    type of the block before it. A SET= that is missing at the beginning is a warning: lines before the first SET=
+    are read as SET=ALL (inferred), and so are points of *EMBEDMENT before its first SET=.
+
+    Example on seabed:
+        + TYPE=ELASTIC
+
+    Finds: 2:1
+    """
+    reading, reported = scene.context, False
+    for where, properties, type_ in typed_blocks(reading):
+        if type_ is None and not reported:
+            reported = True
+            message = "the type is missing: write TYPE=RIGID or TYPE=ELASTIC as the first line"
+            yield Problem(SBD003, message, where=where)
+        for index, entry in enumerate(properties.sets[:1]):
+            yield from _without_set(entry.set_name, where.inside("sets", index), "lines")
+    for where, block in scene.context.blocks("EMBEDMENT"):
+        for index, curve in enumerate(cast("Embedment", block).curves[:1]):
+            yield from _without_set(curve.set_name, where.inside("curves", index), "points")
+
+
+def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]:
+    if name is None:
+        message = f"{what} before any SET= are read as those of SET=ALL (inferred): write SET= before them"
+        yield Problem(SBD003, message, None, Severity.WARNING, where)
+
+
+@rule(SBD005, blocks=True)
+def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
+    """*EMBEDMENT is used with a rigid seabed, or without a seabed.
+
+    A force-embedment curve gives the penetration of a pipe, so it needs an elastic seabed: *ELASTIC SURFACE, or
+    *SEABED PROPERTIES with TYPE=ELASTIC. Choose the elastic seabed, or remove the curves.
+
+    Example:
+         $MODEL
+        -*RIGID SURFACE
+        - 0.3, 0.6
+        -*EMBEDMENT
+        - SET=ALL
+        +*SEABED STIFFNESS
+        + CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=Clay
+        + FRICTION=0.3, 0.6
+
+    Finds: 5:2
+    """
+    first: dict[tuple[int, int], SceneCurve] = {}
+    for curve in scene.laws.curves:
+        if curve.embedment:
+            first.setdefault((curve.where.section, curve.where.block), curve)
+    for curve in first.values() if _lacks_elastic(scene) else ():
+        if "RIGID" in scene.laws.types:
+            message = "*EMBEDMENT needs an elastic seabed: the seabed is rigid"
+            yield Problem(SBD005, message, where=curve.where)
+        else:
+            message = "*EMBEDMENT needs an elastic seabed: the model has no *ELASTIC SURFACE and no TYPE=ELASTIC"
+            yield scene.context.missing(SBD005, message, curve.where, "ELASTIC SURFACE")
+
+
+def _lacks_elastic(scene: ResolvedDeck) -> bool:
+    """Return True if the seabed is rigid, or there is none; False if its type could not be read, or if it is both."""
+    types = scene.laws.types
+    return "ELASTIC" not in types and (
+        "RIGID" in types
+        or not ("SEABED PROPERTIES" in scene.deck.keywords() or "SEABED PROPERTIES" in scene.context.misplaced)
+    )
+
+
+@rule(EXT001, blocks=True)
+def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
+    """An extension keyword is in a model without an elastic seabed.
+
+    The laws of the extensions act on penetration, and nothing penetrates a rigid seabed or a missing one. Write
+    *SEABED PROPERTIES with TYPE=ELASTIC, or remove the keyword.
+
+    Example on seabed:
+        - TYPE=RIGID
+        + TYPE=ELASTIC
+          SET=ALL
+        + STIFFNESS=50000.0
+        | FRICTION=0.3, 0.6
+        |*SEABED SUCTION
+        | SET=ALL
+        | COHESION=5000.0
+
+    Finds: 3:7
+    """
+    if not _lacks_elastic(scene):
+        return
+    types = scene.laws.types
+    supplier = "" if "RIGID" in types else scene.context.possible_definition("ELASTIC SURFACE")
+    what = "the seabed is rigid" if "RIGID" in types else "the model has none"
+    blocks = scene.deck.blocks_with("extension")
+    names = " and ".join(dict.fromkeys(f"*{block.keyword}" for _, block in blocks))
+    for where, _ in blocks[:1]:
+        needs = "needs" if len(names.split(" and ")) == 1 else "need"
+        message = f"{names} {needs} an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
+        if supplier:
+            yield Problem(EXT001, f"{message}; {supplier}", None, Severity.WARNING, where)
+        else:
+            rigid = (place for place in types.get("RIGID", ()) if place.section < len(scene.deck.own_sections))
+            yield Problem(EXT001, message, where=next(rigid, where))
 
 
 SBD011 = Code("SBD011", "profile-needs-elastic", Severity.ERROR)
@@ -202,7 +392,10 @@ def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     faults = list(_faulty_planes(scene))
     yield from faults
-    if scene.seabed.kind is SeabedKind.PLANES and not faults and _known_planes(scene) and (fault := _fault(scene)):
+    planes = scene.seabed.planes
+    numbers = (value for plane in planes for value in (*plane.point, plane.slope, plane.direction, *plane.bounds))
+    readable = not any(map(math.isnan, numbers))  # other faults of numbers are reported already
+    if scene.seabed.kind is SeabedKind.PLANES and not faults and readable and (fault := _fault(scene)):
         yield Problem(EXT007, f"{fault}: correct it", where=scene.seabed.where)
     yield from _repeated(scene)
 
@@ -224,14 +417,6 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
                     "invalid bounds: the second value must be larger than the first, the fourth larger than the third"
                 )
                 yield Problem(EXT007, message, where=place.inside("bounds"))
-
-
-def _known_planes(scene: ResolvedDeck) -> bool:
-    """Return True if all numbers of planes could be read; other faults are reported already."""
-    numbers = (
-        value for plane in scene.seabed.planes for value in (*plane.point, plane.slope, plane.direction, *plane.bounds)
-    )
-    return not any(map(math.isnan, numbers))
 
 
 def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
