@@ -20,7 +20,7 @@ from mudline.basics.limits import MOST_PASSES, MOST_TRIES
 from mudline.basics.outside import refusing_outside
 from mudline.checks.context import LintContext
 from mudline.checks.engine import Fixing, LintSettings, covered_findings, joined_problems
-from mudline.checks.recovery.blocks import start_of
+from mudline.checks.recovery.lines import start_of
 from mudline.checks.report import FileReport
 from mudline.checks.suppression import MARK
 from mudline.language.deck.forms import form_of
@@ -267,7 +267,7 @@ class FixState:
         """Yield section and block of every block that no edit touches."""
         for index, section in enumerate(self.text.tree.sections):
             for number, block in enumerate(section.blocks):
-                start, end = block.head.span.start, (block.leaves or [block.head])[-1].span.end
+                start, end = block.span
                 if not any(edit.start <= end and start <= edit.end for edit in edits):
                     yield index, number
 

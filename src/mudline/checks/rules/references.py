@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.outside import without_text
 from mudline.checks.context import LintContext, entries_of_sets
-from mudline.checks.rules.style import line_around
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
@@ -109,7 +108,7 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
     New lines are indented as the line is.
     """
     source, line = text.source.unified, text.span(where)
-    indentation = source[line_around(source, line.start).start : line.start] if line else ""
+    indentation = source[text.source.line_around(line.start).start : line.start] if line else ""
     edits: list[TextEdit] = []
     for following in range(LONGEST_LIST, count, LONGEST_LIST):
         places = [where.inside(at) for at in (following - 1, following)]

@@ -92,12 +92,6 @@ def first_of_lines(pattern: re.Pattern[str], source: str, span: Span) -> Iterato
         at = source.find("\n", match.end(), span.end) + 1 or span.end
 
 
-def line_around(source: str, offset: int) -> Span:
-    """Return the line around an offset, without its LF; `source` is a unified text."""
-    end = source.find("\n", offset)
-    return Span(source.rfind("\n", 0, offset) + 1, len(source) if end < 0 else end)
-
-
 @rule_of_text(STY002)
 def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A comment begins with a lower-case c.
@@ -274,7 +268,7 @@ def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
     """
     for read, leaves in data_blocks(text):
         for match in (match for leaf in leaves for match in first_of_lines(_TABS, source, leaf.span)):
-            repair = _spread(source, line_around(source, match.start()), read)
+            repair = _spread(source, text.source.line_around(match.start()), read)
             yield Problem(STY001, "a TAB in a data line: write spaces", Span(*match.span()), repair=repair)
 
 
@@ -382,7 +376,7 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
         paths = {span: path for path, span in read.places.spans.items()}
         matches = ((leaf, match) for leaf in leaves for match in first_of_lines(_SEEN, source, leaf.span))
         for leaf, match in matches:
-            line = line_around(source, match.start())
+            line = text.source.line_around(match.start())
             if leaf.span.start in tables or line.start in tables:
                 fields = row_fields(source, line, MOST_COLUMNS)
                 numbers = [field.span for field in fields if _NUMBER.fullmatch(field.text)]
