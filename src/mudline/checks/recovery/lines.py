@@ -30,7 +30,7 @@ from mudline.language.keywords.values import Facts, Kind, Names
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, parse
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, parse
 from mudline.model.scene.references import CURVES, THINGS
 from mudline.model.scene.sets import ALL
 
@@ -80,48 +80,28 @@ def data_of(leaves: Sequence[Leaf]) -> list[Leaf]:
 
 def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
     """Yield the lines of a block below its head, without their ends."""
-    at = block.head.span.end
-    end = block.span.end
-    while at < end:
-        line = text.source.line_around(at)
-        yield line
-        at = text.source.unified.find("\n", at) + 1 or end
+    first, last = (text.source.position(at)[0] for at in (block.span.start, block.span.end - 1))
+    return map(text.source.line_span, range(first + 1, last + 1))
 
 
 class Blocks:
-    """Blocks of a deck's text by their place, computed on demand."""
+    """Blocks of a deck's text by their place.
+
+    blocks: all blocks, each with the name of its section.
+    keywords: names of all blocks.
+    """
 
     def __init__(self, deck: Deck, text: TextOrigin) -> None:
         self.deck = deck
         self.text = text
         self.end = len(text.source.unified)
+        self._sections = (text.tree.preamble, *text.tree.sections)
+        self.blocks = [(section.name, block) for section in self._sections for block in section.blocks]
+        self.keywords = {block.name for _, block in self.blocks}
+        self._heads = [section.head.span.start if section.head else 0 for section in self._sections]
+        self._block_starts = [block.head.span.start for _, block in self.blocks]
+        self._starts = sorted([*self._heads, *self._block_starts])
         self._missing: dict[Names, list[str]] = {}
-
-    @cached_property
-    def _sections(self) -> tuple[RawSection, ...]:
-        return (self.text.tree.preamble, *self.text.tree.sections)
-
-    @cached_property
-    def blocks(self) -> list[tuple[str, RawBlock]]:
-        """All blocks, each with the name of its section."""
-        return [(section.name, block) for section in self._sections for block in section.blocks]
-
-    @cached_property
-    def keywords(self) -> set[str]:
-        """Names of all blocks."""
-        return {block.name for _, block in self.blocks}
-
-    @cached_property
-    def _heads(self) -> list[int]:
-        return [section.head.span.start if section.head else 0 for section in self._sections]
-
-    @cached_property
-    def _block_starts(self) -> list[int]:
-        return [block.head.span.start for _, block in self.blocks]
-
-    @cached_property
-    def _starts(self) -> list[int]:
-        return sorted([*self._heads, *self._block_starts])
 
     def block_at(self, offset: int) -> Span:
         """Return the span from the head of the block (or section) around an offset to the next head."""

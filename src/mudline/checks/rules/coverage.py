@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.checks.context import LintContext, entries_of_sets
-from mudline.checks.rules.geometry import without_sections
+from mudline.checks.rules.model_parts import without_sections
 from mudline.checks.rules.seabed_position import first_of
 from mudline.language.codes.contact import SBD025
 from mudline.language.codes.references import REF010

@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
-from mudline.checks.context import Found, Joined, LintContext, entries_of_sets, joint
-from mudline.checks.rules.geometry import without_sections
-from mudline.checks.rules.model_parts import lacks
+from mudline.checks.context import LintContext, entries_of_sets
+from mudline.checks.rules.model_parts import lacks, without_sections
 from mudline.checks.rules.references import in_water
 from mudline.checks.rules.seabed_position import first_of
 from mudline.checks.rules.seabed_support import in_another_pipe
-from mudline.checks.rules.unusual import UNT007
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.table import Table
 from mudline.language.rules import rule
@@ -33,13 +31,10 @@ CUR001 = Code("CUR001", "current-ends-below-surface", Severity.WARNING)
 GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)
 GEO016 = Code("GEO016", "added-mass-order", Severity.INFO)
 
-
 STEEPEST = 0.142
 """Height over length of the steepest regular wave in deep water (Michell 1893)."""
 STEPS = 20
 """Number of time steps in a wave period, at least."""
-_OF_WAVE = ("amplitude", "height", "period")
-"""Fields of a wave that the time step is compared with."""
 _ROUNDED = 1e-3
 """Share of the water depth by which a profile may miss the surface."""
 
@@ -150,28 +145,6 @@ def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
                 f"give {shortest / STEPS:g} or less"
             )
             yield Problem(TIM004, message, where=where)
-
-
-@joint(TIM003, TIM004, WAV002)
-def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
-    """Join findings to their cause: a wave or a time step that is itself unusual."""
-    rest = [one for code in (WAV002, TIM003, TIM004) for one in found.get(code.code, ())]
-    for cause in found.get(UNT007.code, ()):
-        at = cause.where
-        if at is None or not at.path:
-            continue
-        blocks = [block for section in context.deck.sections[at.section : at.section + 1] for block in section.blocks]
-        keyword = blocks[at.block].keyword if at.block < len(blocks) else ""  # of a deck with a section put in
-        wave = keyword.startswith("WAVE-") and at.path[-1] in _OF_WAVE
-        others = [
-            one
-            for one in rest
-            if one.where is not None
-            and (one.where[:2] == at[:2] or (wave and one.where.section == at.section and one.code is not WAV002))
-        ]
-        if others:
-            rest = [one for one in rest if one not in others]
-            yield Joined(cause, others)
 
 
 def spans(context: LintContext) -> Iterator[tuple[Where, object]]:

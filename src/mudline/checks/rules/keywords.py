@@ -10,7 +10,7 @@ import numpy as np
 
 from mudline.basics.limits import LISTED
 from mudline.checks.context import Found, Joined, LintContext, joint, of_variations
-from mudline.checks.rules.geometry import GEO006
+from mudline.checks.rules.model_parts import GEO006
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Blocks, Code, DeckError, Problem, Repair, Severity, Where
 from mudline.language.keywords.catalogue import is_extension

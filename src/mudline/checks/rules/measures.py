@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.checks.rules.curve_shape import swapped
-from mudline.checks.unit_slips import UNITLESS, DeckUnits, is_placeholder, meant_unit
+from mudline.checks.rules.curve_points import swapped
+from mudline.checks.rules.slips import UNITLESS, DeckUnits, is_placeholder, meant_unit
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.contents import names_given

@@ -1,13 +1,16 @@
-"""Names of force-embedment curves, and the places that use them."""
+"""Force-embedment curves as they are written: their names, the places that use them, repairs of their lines."""
 
 from __future__ import annotations
 
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
-from itertools import groupby
-from typing import TYPE_CHECKING, cast
+from itertools import chain, groupby
+from typing import TYPE_CHECKING, NamedTuple, cast
 
+import numpy as np
+
+from mudline.basics.limits import MOST_REPORTED
 from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.suppression import MARK
 from mudline.language.codes.contact import REF003, SBD006, SBD017
@@ -18,9 +21,11 @@ from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import first_key
-from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.rows import line_spans, read_number, row_fields
 from mudline.language.syntax.tree import Leaf, LeafKind
 from mudline.model.contact.input import LawKind
+from mudline.model.scene.curves import SceneCurve
+from mudline.model.scene.numbering import Indices
 from mudline.model.scene.references import CURVES, repeated, unused
 
 if TYPE_CHECKING:
@@ -232,3 +237,90 @@ def curve_named_as_number(context: LintContext) -> Iterator[Problem]:
         if not curve.embedment and curve.name and read_number(curve.name) is not None:
             message = "the name of this curve reads as a number, and STIFFNESS= takes the number: choose another name"
             yield Problem(SBD017, message, where=curve.title)
+
+
+# ------------------------------------------------------------------------------------------------------ rows of points
+
+
+_NO_PLAIN_NUMBERS = frozenset('["{')
+
+
+def _exchange(text: TextOrigin, curve: SceneCurve) -> Repair | None:
+    """Return a repair that exchanges the fields of each row; None for a curve not read whole, or very long."""
+    block = text.read.get((curve.where.section, curve.where.block))
+    runs = block.places.runs.get((*curve.where.path, "points"), []) if block else []
+    if not runs or len(curve.points) > MOST_REPORTED or not curve.whole:
+        return None
+    source = text.source.unified
+    edits: list[tuple[Span, str]] = []
+    for line in (line for _, run in runs for line in line_spans(source, run)):
+        first, second = (field.span for field in row_fields(source, line, 2))
+        turned = source[slice(*second)] + source[first.end : second.start] + source[slice(*first)]
+        edits.append((Span(first.start, second.end), turned))
+    return Repair("unsafe", "exchange the columns", tuple(edits))
+
+
+class CurveRows(NamedTuple):
+    """Lines of a table, without white space and line ends after them; `before` is the text of the curve above them."""
+
+    source: str
+    lines: list[Span]
+    before: str
+
+    def crosses_comment(self, order: Indices) -> bool:
+        """Return True if a comment is next to a row that the new order moves, or that other rows pass."""
+        settled = np.maximum.accumulate(order) == np.arange(len(order))  # up to here the rows stay among themselves
+        stays = order == np.arange(len(order))
+        if "mudline" in self.before.lower() and not stays[0]:  # a comment that speaks of the first row alone
+            return True
+        for place in range(len(order) - 1):
+            between = self.source[self.lines[place].end : self.lines[place + 1].start]
+            if between.strip() and not (settled[place] and stays[place] and stays[place + 1]):
+                return True
+        return False
+
+
+def plain_rows(text: TextOrigin, curve: SceneCurve) -> CurveRows | None:
+    """Return the rows of a curve; None if there are very many, or equations, whose parameters may change."""
+    block = text.read.get((curve.where.section, curve.where.block))
+    if block is None or len(curve.points) > MOST_REPORTED:
+        return None
+    source = text.source.unified
+    runs = block.places.runs.get((*curve.where.path, "points"), [])
+    lines = [
+        Span(line.start, line.start + len(source[slice(*line)].rstrip()))
+        for line in chain.from_iterable(line_spans(source, run) for _, run in runs)
+    ]
+    if not lines or any(not _NO_PLAIN_NUMBERS.isdisjoint(source[slice(*line)]) for line in lines):
+        return None
+    opening = block.places.find(curve.where.path).start
+    if opening >= lines[0].start:  # rows of *EMBEDMENT that stand under no SET=
+        opening = block.places.block.start
+    return CurveRows(source, lines, source[opening : lines[0].start])
+
+
+def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
+    """Return a repair that sorts the rows by their ratios.
+
+    None for a curve that is not read whole, is very long or has equations, or if a comment would then be next to
+    another row.
+    """
+    if not curve.whole or (rows := plain_rows(text, curve)) is None or len(rows.lines) != len(curve.points):
+        return None
+    order = np.argsort(curve.points[:, 0], kind="stable")
+    if rows.crosses_comment(order):
+        return None
+    edits = [
+        (rows.lines[place], rows.source[slice(*rows.lines[row])])
+        for place, row in enumerate(order.tolist())
+        if place != row
+    ]
+    return Repair("safe", "put the points in order", tuple(edits)) if edits else None
+
+
+def removal(rows: CurveRows, row: int) -> Repair:
+    """Return a repair that removes a row."""
+    line = rows.lines[row]
+    following = rows.source.find("\n", line.end)
+    end = len(rows.source) if following < 0 else following + 1
+    return Repair("safe", "remove the point", ((Span(line.start, end), ""),))
