@@ -124,7 +124,7 @@ def _read_piece(piece: _Piece, declared: type[Block], last: bool, older: bool) -
 
 def read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Return the result of `read_block` for a block; blocks with the same text share their model."""
-    start, end = raw.span
+    start, end = raw.head.span.start, (raw.leaves or [raw.head])[-1].span.end
     if end - start > _SHORT_BLOCK:
         return read_block(text, raw, declared, last=last)
     piece = _Piece(text[start:end])
@@ -157,12 +157,12 @@ def read_deck(
 # ---------------------------------------------------------------------------------------------- for rules
 
 
-def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> list[tuple[Where, Any]]:
-    """Return every entry below a SET= of some blocks, with its place."""
+def records_of(blocks: Iterable[tuple[Where, Any]], name: str = "sets") -> list[tuple[Where, Any]]:
+    """Return every record in a list of some blocks, by default what stands below a SET=, with its place."""
     return [
-        (where._replace(path=("sets", index)), entry)
+        (where._replace(path=(name, index)), record)
         for where, block in blocks
-        for index, entry in enumerate(block.sets)
+        for index, record in enumerate(getattr(block, name) or ())
     ]
 
 

@@ -191,17 +191,12 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
 def _marked(line: str, section: str) -> str:
     """Return the keyword of a section that a line without a star is, or the section, with its mark; or ""."""
     name = line.upper()
-    if not line[:1].isalpha() or "=" in line or name not in _known():
+    if not line[:1].isalpha() or "=" in line:
         return ""
     sections = catalogue.sections_of(name)
     if sections is not None and (not sections or section in sections):
         return f"*{name}"
     return f"${name}" if name in catalogue.SECTIONS else ""
-
-
-@cache
-def _known() -> frozenset[str]:
-    return frozenset([*catalogue.keywords(), *catalogue.SECTIONS])
 
 
 # ------------------------------------------------------------------------------------------------ the line of a keyword

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.checks.context import LintContext, entries_of_sets
+from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.model_parts import without_sections
 from mudline.checks.rules.seabed_position import first_of
 from mudline.language.codes.contact import SBD025
@@ -71,7 +71,7 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
         places = [
             (keyword, where, scene.set_table.find(entry.set_name))
             for keyword in giving
-            for where, entry in entries_of_sets(context.blocks(keyword))
+            for where, entry in records_of(context.blocks(keyword))
             if is_name(entry.set_name)
         ]
         known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]

@@ -5,24 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import chain
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.checks.context import LintContext, entries_of_sets
+from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.model_parts import lacks, without_sections
 from mudline.checks.rules.references import in_water
 from mudline.checks.rules.seabed_position import first_of
 from mudline.checks.rules.seabed_support import in_another_pipe
 from mudline.language.diagnostics import Code, Problem, Severity, Where
-from mudline.language.keywords.table import Table
 from mudline.language.rules import rule
 from mudline.model.scene.deck_values import DEFAULT_GRAVITY, number
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.analysis import TimeSpan
-    from mudline.language.keywords.library.currents import Current
-    from mudline.language.keywords.library.waves import RegularWaves
 
 WAV002 = Code("WAV002", "breaking-wave", Severity.WARNING)
 TIM003 = Code("TIM003", "ramp-does-not-fit", Severity.WARNING)
@@ -50,11 +44,9 @@ class _Wave(NamedTuple):
 def waves(context: LintContext) -> list[_Wave]:
     """Return the regular waves of a load case whose height and period are known."""
     found = []
-    for where, block in context.blocks("WAVE-REGULAR", "LOAD CASE"):
-        for index, entry in enumerate(cast("RegularWaves", block).waves):
-            place = where.inside("waves", index, "wave")
-            height, period = 2.0 * number(entry.wave, "amplitude"), number(entry.wave, "period")
-            found.append(_Wave(height, period, place.inside("amplitude")))
+    for where, entry in records_of(context.blocks("WAVE-REGULAR", "LOAD CASE"), "waves"):
+        height, period = 2.0 * number(entry.wave, "amplitude"), number(entry.wave, "period")
+        found.append(_Wave(height, period, where.inside("wave", "amplitude")))
     for where, wave in by_height(context):
         found.append(_Wave(number(wave, "height"), number(wave, "period"), where.inside("height")))
     return [wave for wave in found if wave.height > 0.0 and wave.period > 0.0]
@@ -79,7 +71,8 @@ def breaking_wave(context: LintContext) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    gravity = _gravity(context)
+    given = context.scene.surroundings.gravity
+    gravity = given if given > 0.0 else DEFAULT_GRAVITY.get(context.scene.units, math.nan)
     for wave in context.once(waves):
         length = gravity * wave.period * wave.period / (2.0 * math.pi)
         if wave.height > STEEPEST * length:
@@ -88,12 +81,6 @@ def breaking_wave(context: LintContext) -> Iterator[Problem]:
                 f"length high, and breaks at {STEEPEST}: correct height or period"
             )
             yield Problem(WAV002, message, where=wave.at_height)
-
-
-def _gravity(context: LintContext) -> float:
-    """Return the gravity of the last *OCEAN, else of the unit system; NaN if neither gives it."""
-    given = context.scene.surroundings.gravity
-    return given if given > 0.0 else DEFAULT_GRAVITY.get(context.scene.units, math.nan)
 
 
 @rule(TIM003)
@@ -159,9 +146,8 @@ def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
     """Yield the time steps of a load case: fixed ones, and the largest of variable ones."""
     for where, span in spans(context):
         yield where.inside("increment"), number(span, "increment")
-    for where, block in context.blocks("TIME", "LOAD CASE"):
-        for index, limits in enumerate(cast("TimeSpan", block).limits or ()):
-            yield where.inside("limits", index, "largest"), number(limits, "largest")
+    for where, limits in records_of(context.blocks("TIME", "LOAD CASE"), "limits"):
+        yield where.inside("largest"), number(limits, "largest")
 
 
 # ------------------------------------------------------------------------------------------------------------- currents
@@ -186,23 +172,17 @@ def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
     Finds: 13:2
     """
     depth = context.scene.surroundings.depth
-    for where, block in context.blocks("CURRENT", "LOAD CASE"):
-        for index, current in enumerate(cast("Current", block).currents):
-            place = where.inside("currents", index, "profile")
-            if current.profile is not None and depth > 0.0 and len(current.profile):
-                yield from _below(current.profile, place, depth, descends=str(current.option).startswith("DESCEND"))
-
-
-def _below(profile: Table, where: Where, depth: float, *, descends: bool) -> Iterator[Problem]:
-    elevations = profile.column(0)
-    if np.isnan(elevations).any():
-        return
-    row = int(elevations.argmin() if descends else elevations.argmax())
-    missing = float(elevations[row]) if descends else depth - float(elevations[row])
-    if missing > _ROUNDED * depth:
-        advice = "" if descends else ", or OPTION=DESCEND for depths below the water line"
-        message = f"the profile ends {missing:g} below the surface of {depth:g} deep water: give a point there{advice}"
-        yield Problem(CUR001, message, where=where.inside(row))
+    for where, current in records_of(context.blocks("CURRENT", "LOAD CASE"), "currents"):
+        elevations = current.profile.column(0) if current.profile is not None else np.zeros(0)
+        if not depth > 0.0 or not elevations.size or np.isnan(elevations).any():
+            continue
+        descends = str(current.option).startswith("DESCEND")
+        row = int(elevations.argmin() if descends else elevations.argmax())
+        missing = float(elevations[row]) if descends else depth - float(elevations[row])
+        if missing > _ROUNDED * depth:
+            advice = "" if descends else ", or OPTION=DESCEND for depths below the water line"
+            message = f"the profile ends {missing:g} below the surface of {depth:g} deep water: give a point there"
+            yield Problem(CUR001, f"{message}{advice}", where=where.inside("profile", row))
 
 
 # --------------------------------------------------------------------------------------------------------- coefficients
@@ -237,16 +217,14 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     Finds: 10:2
     """
     scene = context.scene
-    blocks = context.blocks("HYDRODYNAMIC SETS")
     if not any(in_water(context.deck)) or not lacks(context, "elements", "hydrodynamics"):
         return
     covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    for _, block in blocks:
-        for entry in block.sets:
-            set_ = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
-            if set_ is None:
-                return
-            covered[set_.elements] = True
+    for _, entry in records_of(context.blocks("HYDRODYNAMIC SETS")):
+        set_ = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
+        if set_ is None:
+            return
+        covered[set_.elements] = True
     bare = np.flatnonzero(~(covered | without_sections(scene) | in_another_pipe(scene)))
     if bare.size:
         what = first_of("element", scene.element_ids[bare[0]], bare.size)
@@ -275,7 +253,7 @@ def added_mass_order(context: LintContext) -> Iterator[Problem]:
     if context.deck.file.lower().endswith(".das"):
         return
     lines = []
-    for where, entry in entries_of_sets(context.blocks("HYDRODYNAMIC SETS")):
+    for where, entry in records_of(context.blocks("HYDRODYNAMIC SETS")):
         normal, tangential, inertia = (
             number(entry.constant, name) for name in ("normal_added_mass", "tangential_added_mass", "normal_inertia")
         )

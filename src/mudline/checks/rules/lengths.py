@@ -6,11 +6,10 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
-from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.checks.context import LintContext
+from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.curve_points import LARGEST_RATIO
 from mudline.checks.rules.seabed_position import UNT006, height_over_depth
 from mudline.checks.rules.unusual import of_code
@@ -22,11 +21,6 @@ from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of, looked_up
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.curvilinear import Cables, CurvilinearNodes
-    from mudline.language.keywords.library.mesh import Nodes
-    from mudline.language.keywords.table import Table
 
 GEO011 = Code("GEO011", "short-cable", Severity.WARNING)
 GEO012 = Code("GEO012", "node-beyond-cable", Severity.WARNING)
@@ -55,7 +49,6 @@ ROUNDING: relative rounding of a depth.
 """
 _ROUNDED = 1e-6
 """Relative rounding of a length."""
-_OF_CABLE = ("node", "cable", "distance")
 
 
 @rule(UNT006)
@@ -260,16 +253,13 @@ def _decimal_commas(context: LintContext) -> Iterator[Problem]:
     text = context.text
     if text is None:
         return
-    for where, block in context.written("NODE"):
-        for index, entry in enumerate(cast("Nodes", block).entries):
-            if not hasattr(entry, "nodes"):
-                continue
-            split = _split_rows(text, entry.nodes, where.inside("entries", index, "nodes"))
-            if split:
-                place, names, halves = split[0]
-                message = f"decimal comma? {halves} is two fields here, {names}: write {halves.replace(',', '.')}"
-                more = f"; so in {len(split)} rows of this block" if len(split) > 1 else ""
-                yield Problem(UNT006, f"{message}{more}", where=place)
+    for where, entry in records_of(context.written("NODE"), "entries"):
+        split = _split_rows(text, entry.nodes, where.inside("nodes")) if hasattr(entry, "nodes") else []
+        if split:
+            place, names, halves = split[0]
+            message = f"decimal comma? {halves} is two fields here, {names}: write {halves.replace(',', '.')}"
+            more = f"; so in {len(split)} rows of this block" if len(split) > 1 else ""
+            yield Problem(UNT006, f"{message}{more}", where=place)
 
 
 def _split_rows(text: TextOrigin, table: Table, where: Where) -> list[tuple[Where, str, str]]:
@@ -350,17 +340,16 @@ def short_cable(context: LintContext) -> Iterator[Problem]:
     Finds: 6:12
     """
     scene = context.scene
-    for where, block in context.blocks("CABLE"):
-        for index, cable in enumerate(cast("Cables", block).cables):
-            ends = np.array([end for end in (cable.start, cable.end) if isinstance(end, int)], dtype=np.int64)
-            places = scene.nodes.indices(ends)
-            if len(places) < 2 or (places < 0).any():
-                continue
-            distance = float(np.linalg.norm(scene.coordinates[places[1]] - scene.coordinates[places[0]]))
-            length = number(cable, "length")
-            if length < distance * (1.0 - _ROUNDED):
-                message = f"the cable is {length:g} long and its ends lie {distance:g} apart: correct one of them"
-                yield Problem(GEO011, message, where=where.inside("cables", index, "length"))
+    for where, cable in records_of(context.blocks("CABLE"), "cables"):
+        ends = np.array([end for end in (cable.start, cable.end) if isinstance(end, int)], dtype=np.int64)
+        places = scene.nodes.indices(ends)
+        if len(places) < 2 or (places < 0).any():
+            continue
+        distance = float(np.linalg.norm(scene.coordinates[places[1]] - scene.coordinates[places[0]]))
+        length = number(cable, "length")
+        if length < distance * (1.0 - _ROUNDED):
+            message = f"the cable is {length:g} long and its ends lie {distance:g} apart: correct one of them"
+            yield Problem(GEO011, message, where=where.inside("length"))
 
 
 @rule(GEO012)
@@ -383,17 +372,16 @@ def node_beyond_cable(context: LintContext) -> Iterator[Problem]:
 
     Finds: 8:8
     """
-    cables = (cable for _, block in context.blocks("CABLE") for cable in cast("Cables", block).cables)
-    lengths = {float(cable.cable): number(cable, "length") for cable in cables if isinstance(cable.cable, int)}
-    for where, block in context.blocks("NODE,CURVILINEAR"):
-        for index, entry in enumerate(cast("CurvilinearNodes", block).entries):
-            table = getattr(entry, "nodes", None)
-            rows = [] if table is None or table.values.shape[1] < len(_OF_CABLE) else table.values.tolist()
-            for row, (_, cable, distance) in enumerate(rows):
-                length = lengths.get(cable, math.nan)
-                if distance > length * (1.0 + _ROUNDED):
-                    message = f"the node lies {distance:g} along a cable {length:g} long: correct one of them"
-                    yield Problem(GEO012, message, where=where.inside("entries", index, "nodes", row, 2))
+    cables = (cable for _, cable in records_of(context.blocks("CABLE"), "cables") if isinstance(cable.cable, int))
+    lengths = {float(cable.cable): number(cable, "length") for cable in cables}
+    for where, entry in records_of(context.blocks("NODE,CURVILINEAR"), "entries"):
+        table = getattr(entry, "nodes", None)
+        rows = [] if table is None or table.values.shape[1] < 3 else table.values.tolist()
+        for row, (_, cable, distance) in enumerate(rows):
+            length = lengths.get(cable, math.nan)
+            if distance > length * (1.0 + _ROUNDED):
+                message = f"the node lies {distance:g} along a cable {length:g} long: correct one of them"
+                yield Problem(GEO012, message, where=where.inside("nodes", row, 2))
 
 
 # -------------------------------------------------------------------------------------------------------------- curves

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, cast
 
 from mudline.basics.spelling import Effort, nearest
-from mudline.checks.context import LintContext
+from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.hydrodynamics import by_height, spans
 from mudline.checks.rules.references import in_water
 from mudline.language.deck.parameters import name_key
@@ -20,12 +19,6 @@ from mudline.language.rules import rule
 from mudline.language.syntax.fields import read_line
 from mudline.model.scene.deck_values import number
 
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.analysis import AnalysisType, TimeSpan
-    from mudline.language.keywords.library.summary import SummaryTime
-    from mudline.language.keywords.library.vessel_motions import Drift
-    from mudline.language.keywords.library.vessels import IntegratedVessels, Vessels
-
 VES002 = Code("VES002", "vessel-without-rao", Severity.WARNING)
 TIM005 = Code("TIM005", "static-steps-without-effect", Severity.INFO)
 TIM001 = Code("TIM001", "end-not-after-start", Severity.ERROR)
@@ -37,14 +30,9 @@ TIM007 = Code("TIM007", "stored-after-the-end", Severity.WARNING)
 REF021 = Code("REF021", "misspelt-output", Severity.WARNING)
 
 
-_DYNAMIC = ("DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")
-_FREQUENCY = "FREQUENCY"
-
-
 def _analysis(context: LintContext) -> set[str]:
     """Return the kinds of run that the deck names."""
-    blocks = context.blocks("ANALYSIS TYPE", "LOAD CASE")
-    return {str(cast("AnalysisType", block).type_).upper() for _, block in blocks if block.type_}
+    return {str(block.type_).upper() for _, block in context.blocks("ANALYSIS TYPE", "LOAD CASE") if block.type_}
 
 
 @rule(VES002)
@@ -75,22 +63,20 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
     Finds: 3:9
     """
     waves = any("WAVE" in keyword for _, keyword in in_water(context.deck))
-    if not waves or not _analysis(context) & {*_DYNAMIC}:
+    if not waves or _analysis(context).isdisjoint(("DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")):
         return
     moving = context.scene.deck.blocks_with("moves_vessels", "LOAD CASE")
     moved = {name_key(name) for _, block in moving for _, name in names_given(block, Names.VESSEL)}
     for keyword in catalogue.definers(Names.VESSEL):
-        for where, block in context.blocks(keyword):
-            for index, vessel in enumerate(cast("Vessels | IntegratedVessels", block).vessels):
-                place = where.inside("vessels", index)
-                name = str(getattr(vessel, "vessel", None) or "")
-                still = name and name_key(name) not in moved and not getattr(vessel, "rao", None)
-                if still and not getattr(vessel, "unread", None):
-                    message = (
-                        f"vessel {shown(name)} has no RAO and stands still in the waves: give RAO= in "
-                        "*VESSEL,INTEGRATED, or the operators in *RAO"
-                    )
-                    yield Problem(VES002, message, where=place.inside("vessel"))
+        for where, vessel in records_of(context.blocks(keyword), "vessels"):
+            name = str(getattr(vessel, "vessel", None) or "")
+            still = name and name_key(name) not in moved and not getattr(vessel, "rao", None)
+            if still and not getattr(vessel, "unread", None):
+                message = (
+                    f"vessel {shown(name)} has no RAO and stands still in the waves: give RAO= in *VESSEL,INTEGRATED, "
+                    "or the operators in *RAO"
+                )
+                yield Problem(VES002, message, where=where.inside("vessel"))
 
 
 @rule(TIM005)
@@ -111,7 +97,7 @@ def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
     Finds: 4:1
     """
     kinds = _analysis(context)
-    if not kinds or any(kind.startswith(_FREQUENCY) for kind in kinds):
+    if not kinds or any(kind.startswith("FREQUENCY") for kind in kinds):
         return
     for where, _ in context.written("NON LINEAR STATIC", "LOAD CASE"):
         message = f"no effect: the run is {min(kinds).lower()}, not in the frequency domain; remove *NON LINEAR STATIC"
@@ -119,8 +105,6 @@ def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
 
 
 # ---------------------------------------------------------------------------------------------------------------- times
-
-_LAST_STORED = -1.0
 
 
 @rule(TIM001)
@@ -140,9 +124,8 @@ def end_not_after_start(context: LintContext) -> Iterator[Problem]:
     for where, span in spans(context):
         yield from _backwards(span, where)
     for where, block in context.blocks("TIME", "SUMMARY POSTPROCESSING"):
-        summary = cast("SummaryTime", block)
-        if summary.start != _LAST_STORED:
-            yield from _backwards(summary, where)
+        if block.start != -1.0:  # the last stored time
+            yield from _backwards(block, where)
 
 
 def _backwards(span: object, where: Where) -> Iterator[Problem]:
@@ -172,8 +155,7 @@ def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
     """
     for where, block in context.blocks("TIME", "LOAD CASE"):
         before = -float("inf")
-        for index, limits in enumerate(cast("TimeSpan", block).limits or ()):
-            place = where.inside("limits", index)
+        for place, limits in records_of([(where, block)], "limits"):
             suggested, least, largest = (number(limits, name) for name in ("suggested", "least", "largest"))
             if not math.isnan(suggested + least + largest) and not least <= suggested <= largest:
                 message = (
@@ -288,14 +270,13 @@ def two_kinds_of_drift(context: LintContext) -> Iterator[Problem]:
     Finds: 9:20
     """
     kinds: dict[str, str] = {}
-    for where, block in context.blocks("DRIFT", "LOAD CASE"):
-        for index, drift in enumerate(cast("Drift", block).drifts):
-            if not drift.vessel or not drift.type_:
-                continue
-            kind = kinds.setdefault(name_key(drift.vessel), drift.type_)
-            if kind != drift.type_:
-                message = f"vessel {shown(drift.vessel)} has a drift of TYPE={kind} above: give it one kind"
-                yield Problem(VES001, message, where=where.inside("drifts", index, "type"))
+    for where, drift in records_of(context.blocks("DRIFT", "LOAD CASE"), "drifts"):
+        if not drift.vessel or not drift.type_:
+            continue
+        kind = kinds.setdefault(name_key(drift.vessel), drift.type_)
+        if kind != drift.type_:
+            message = f"vessel {shown(drift.vessel)} has a drift of TYPE={kind} above: give it one kind"
+            yield Problem(VES001, message, where=where.inside("type"))
 
 
 # ---------------------------------------------------------------------------------------------------- requested results

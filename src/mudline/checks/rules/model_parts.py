@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.checks.context import LintContext, entries_of_sets
+from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.seabed_position import first_of
 from mudline.language.deck.model import Opaque, raw_lines
 from mudline.language.deck.parameters import folded, name_key
@@ -72,7 +72,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for where, entry in entries_of_sets(context.written("GEOMETRIC SETS")):
+    for where, entry in records_of(context.written("GEOMETRIC SETS")):
         if entry.mooring is not None:
             continue  # its format has no field for a curve, and EA must be given
         for curve, (key, numbers) in _CURVES.items():

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.outside import without_text
-from mudline.checks.context import LintContext, entries_of_sets
+from mudline.checks.context import LintContext, records_of
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
@@ -29,7 +29,6 @@ from mudline.model.scene.sets import ALL, LONGEST_NAME
 if TYPE_CHECKING:
     from mudline.language.keywords.library.mesh import ElementSet, SetList
     from mudline.language.keywords.library.preprocessor import Parameter
-    from mudline.language.keywords.library.vessel_motions import Raos
 
 REF011 = Code("REF011", "long-name", Severity.WARNING)
 REF012 = Code("REF012", "long-list", Severity.WARNING)
@@ -58,7 +57,7 @@ def long_name(context: LintContext) -> Iterator[Problem]:
 
     Finds: 12:6
     """
-    for where, entry in entries_of_sets(context.blocks("ELEMENT SETS")):
+    for where, entry in records_of(context.blocks("ELEMENT SETS")):
         length = len(cast("str | None", entry.name) or "")
         if length > LONGEST_NAME:
             message = f"a set name of {length} characters: it must not be longer than {LONGEST_NAME}"
@@ -89,7 +88,7 @@ def long_list(context: LintContext) -> Iterator[Problem]:
 
     Finds: 11:73
     """
-    for where, entry in entries_of_sets(context.written("ELEMENT SETS")):
+    for where, entry in records_of(context.written("ELEMENT SETS")):
         for number, member in enumerate(entry.members):
             count = len(cast("SetList", member).elements) if member.rule == "set_list" else 0
             if count > LONGEST_LIST:
@@ -142,7 +141,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     Finds: 14:6
     """
     known: dict[str, list[tuple[int, int]]] = {}
-    for where, entry in entries_of_sets(context.written("ELEMENT SETS")):
+    for where, entry in records_of(context.written("ELEMENT SETS")):
         name = known_name(entry.name)
         if name is None or (key := folded(name)) == ALL:
             continue
@@ -199,21 +198,19 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     Finds: 4:2
     """
     known: set[str] = set()
-    for where, block in context.written("PARAMETERS", "PREPROCESSOR"):
-        for index, parameter in enumerate(cast("list[Parameter]", block.parameters)):
-            repeated: list[str] = []
-            for name in _names(parameter):
-                key = folded(name)
-                if key in known:
-                    repeated.append(name)
-                known.add(key)
-            if repeated:
-                others = f" (and {len(repeated) - 1} more of this list)" if len(repeated) > 1 else ""
-                message = (
-                    f"parameter {shown(repeated[0])}{others} is defined twice, and this value overrides the earlier "
-                    "one: remove one of them"
-                )
-                yield Problem(REF017, message, where=where.inside("parameters", index, "name"))
+    for where, parameter in records_of(context.written("PARAMETERS", "PREPROCESSOR"), "parameters"):
+        again: list[str] = []
+        for name in _names(parameter):
+            if folded(name) in known:
+                again.append(name)
+            known.add(folded(name))
+        if again:
+            others = f" (and {len(again) - 1} more of this list)" if len(again) > 1 else ""
+            message = (
+                f"parameter {shown(again[0])}{others} is defined twice, and this value overrides the earlier one: "
+                "remove one of them"
+            )
+            yield Problem(REF017, message, where=where.inside("name"))
 
 
 def _names(parameter: Parameter) -> list[str]:
@@ -308,14 +305,11 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    for where, block in context.blocks("RAO", "LOAD CASE"):
-        for index, vessel in enumerate(cast("Raos", block).vessels):
-            lines = vessel.lines
-            columns = [lines.column(column).tolist() for column in (0, 1)] if lines is not None else []
-            rows = zip(*columns, strict=True)  # a heading and a frequency, NaN where it is not known
-            if fault := unequal_frequencies([row for row in rows if not any(map(math.isnan, row))]):
-                message = f"{fault}: correct the lines"
-                yield Problem(DAT002, message, where=where.inside("vessels", index, "lines"))
+    for where, vessel in records_of(context.blocks("RAO", "LOAD CASE"), "vessels"):
+        columns = [vessel.lines.column(column).tolist() for column in (0, 1)] if vessel.lines is not None else []
+        rows = zip(*columns, strict=True)  # a heading and a frequency, NaN where it is not known
+        if fault := unequal_frequencies([row for row in rows if not any(map(math.isnan, row))]):
+            yield Problem(DAT002, f"{fault}: correct the lines", where=where.inside("lines"))
     for named, path in context.once(_there):
         if fault := _fault(named, path):
             shown_fault = without_text(fault, path, context.deck.folder)

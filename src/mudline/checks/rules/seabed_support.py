@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
-from mudline.checks.context import LintContext
+from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.seabed_position import depths, first_of
 from mudline.language.codes.contact import GEO005, GEO017, SBD006
 from mudline.language.codes.lines import SYN014
@@ -21,9 +21,6 @@ from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
 from mudline.model.scene.rules.laws import SBD004
 from mudline.model.scene.seabed import SeabedKind, survey_of
 from mudline.model.scene.vertical_axis import FLAT, NEAR
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.pipe_in_pipe import PipSections
 
 HIGHEST = 100.0
 """Height above the seabed, in diameters, at which a level line does not hang."""
@@ -299,10 +296,9 @@ def _inner_pipes(scene: Scene, free: Mask) -> Mask:
 def in_another_pipe(scene: Scene) -> Mask:
     """Return a mask (m,) of the elements of the inner pipes that `*PIP SECTION` names."""
     inside = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    for _, block in scene.deck.blocks("PIP SECTION"):
-        for pipe in cast("PipSections", block).pipes:
-            if set_ := scene.set_table.find(pipe.inner or ""):
-                inside[set_.elements] = True
+    for _, pipe in records_of(scene.deck.blocks("PIP SECTION"), "pipes"):
+        if set_ := scene.set_table.find(pipe.inner or ""):
+            inside[set_.elements] = True
     return inside
 
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from mudline.checks.context import LintContext
+from mudline.checks.context import LintContext, records_of
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.table import Table
@@ -278,8 +278,7 @@ def given(context: LintContext) -> list[FrictionEntry]:
         for where, surface in context.scene.context.surfaces
     ]
     for where, properties, type_ in typed_blocks(context.scene.context):
-        for index, entry in enumerate(properties.sets):
-            entries.append(FrictionEntry(entry, where.inside("sets", index), type_, legacy=False))
+        entries += [FrictionEntry(entry, at, type_, legacy=False) for at, entry in records_of([(where, properties)])]
     return entries
 
 
@@ -398,9 +397,8 @@ def soil_gains_again(context: LintContext) -> Iterator[Problem]:
 
 def _springs(context: LintContext) -> Iterator[tuple[Where, list[Any]]]:
     """Yield the place and the curves of each set of soil springs."""
-    for where, block in context.scene.deck.blocks_with("soil_springs"):
-        for index, entry in enumerate(block.sets):
-            yield where.inside("sets", index, "curves"), entry.curves
+    for where, entry in records_of(context.scene.deck.blocks_with("soil_springs")):
+        yield where.inside("curves"), entry.curves
 
 
 def _gains_again(points: Table) -> int | None:
