@@ -111,13 +111,9 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
         meant = recovered(context, {rule.code.code for rule in chosen}, suppress=suppress)
     found = problems_in(meant.context if meant else context, chosen)
     if meant is not None:
-        found = [*meant.as_written(found)]
-        found = [*_as_severe(context, meant), *found]
+        found = [*_as_severe(context, meant), *meant.as_written(found)]
     found = _misspelt_as_errors(context, found)
     found = unsuppressed(context, found, chosen) if suppress else found
-    if not found:
-        return found
-
     return joined_findings(context, found)
 
 
@@ -326,9 +322,10 @@ def _joined(cause: Problem, others: Sequence[Problem], words: str) -> Problem:
     blocks = strongest(everything)
     severity = max((item.weight for item in everything), key=lambda severity: severity.rank)
     below = tuple(each for item in others for each in (replace(item, following=()), *item.following))
+    left_out = "finding that follows from it is" if len(others) == 1 else "findings that follow from it are"
     return replace(
         cause,
-        message=f"{cause.message}; {words or _left_out(len(others))}",
+        message=f"{cause.message}; {words or f'{len(others)} {left_out} left out'}",
         severity=Severity.ERROR if blocks is Blocks.ALWAYS else severity,
         blocks=blocks,
         repair=cause.repair and _of_all(everything)
@@ -336,12 +333,6 @@ def _joined(cause: Problem, others: Sequence[Problem], words: str) -> Problem:
         else cause.repair,
         following=(*cause.following, *below),
     )
-
-
-def _left_out(count: int) -> str:
-    """Return in words how many findings were left out as consequences."""
-    which = "finding that follows from it is" if count == 1 else "findings that follow from it are"
-    return f"{count} {which} left out"
 
 
 def _of_all(problems: Sequence[Problem]) -> Repair | None:

@@ -189,17 +189,14 @@ class _Round:
             proposed.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
             for one in proposed:
                 start, end = one.region
+                line = self.text.source.line_around(one.edits[0].span.start)
                 apart = all(end <= other.region.start or other.region.end <= start for other in taken)
-                if apart and self._is_sayable(one) and self._is_better(one):
+                wanted = one.cause.code.code in self.codes and line.end - line.start <= LONGEST_LINE
+                if apart and wanted and self._is_better(one):
                     taken.append(one)
             explained = {id(one.cause) for one in taken}
             problems = [one for one in problems if one.repair is None and id(one) not in explained]
         return taken
-
-    def _is_sayable(self, correction: Correction) -> bool:
-        """Return True if the finding of a correction is wanted, and its line is not too long."""
-        line = self.text.source.line_around(correction.edits[0].span.start)
-        return correction.cause.code.code in self.codes and line.end - line.start <= LONGEST_LINE
 
     def _is_better(self, correction: Correction) -> bool:
         """Return True if a correction removes its fault and leaves fewer faults in the blocks around it."""

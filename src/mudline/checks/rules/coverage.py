@@ -77,7 +77,7 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
         known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for *_, set_ in known], count):
             (before, _, first), (keyword, where, second) = known[earlier], known[later]
-            refined = before == keyword and (within(first, second, count) or within(second, first, count))
+            refined = before == keyword and (within(first, second) or within(second, first))
             if refined or first.open or second.open:
                 continue
             which = first_of("element", scene.element_ids[elements.min()], elements.size)
@@ -271,7 +271,13 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
     """
     if len(context.scene.element_ids):
         yield from _unused_properties(context)
-    yield from _unused_surfaces(context)
+    # Two types are reported by SBD002.
+    surfaces = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
+    for where, surface in surfaces[:-1]:
+        message = (
+            f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
+        )
+        yield Problem(SBD025, message, where=where.inside("properties"))
 
 
 def _unused_properties(context: LintContext) -> Iterator[Problem]:
@@ -294,16 +300,6 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
         if set_.elements.size or set_.where not in empty:
             place = grant.where._replace(path=(*grant.where.path[:2], "set"))
             yield Problem(SBD025, f"this definition applies to no element, as {why}", where=place)
-
-
-def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
-    """Yield legacy surfaces that a later one replaces, unless SBD002 reports two types."""
-    surfaces = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
-    for where, surface in surfaces[:-1]:
-        message = (
-            f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
-        )
-        yield Problem(SBD025, message, where=where.inside("properties"))
 
 
 def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[tuple[int, int, Indices]]:
@@ -339,14 +335,15 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
         first, second = grants[earlier].set_, grants[later].set_
         where = grants[later].where
         place = where._replace(path=(*where.path[:2], "set"))
-        if within(first, second, len(scene.element_ids)):
+        if within(first, second):
+            of_set = "this set" if folded(first.name) == folded(second.name) else f"SET={shown(first.name)}"
             message = (
-                f"{_called(first, second)} is overridden by this one for all its elements: "
-                "put the larger set first, or remove one"
+                f"the earlier definition of {of_set} is overridden by this one for all its elements: put the larger "
+                "set first, or remove one"
             )
             lost = not _alike(scene, grants[earlier], grants[later])
             yield earlier, Problem(SBD008, message, None, Severity.WARNING if lost else None, place)
-        elif not within(second, first, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
+        elif not within(second, first) and not _alike(scene, grants[earlier], grants[later]):
             message = (
                 f"this definition overrides the earlier one of SET={shown(first.name)} for "
                 f"{_counted(scene, elements)}: give each element one definition"
@@ -354,22 +351,13 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
             yield earlier, Problem(SBD008, message, where=place)
 
 
-def within(part: NamedSet, whole: NamedSet, count: int) -> bool:
+def within(part: NamedSet, whole: NamedSet) -> bool:
     """Return True if the elements of one set are all in another one, as far as they are known."""
     if folded(whole.name) in (folded(part.name), folded(ALL)):
         return True
     if part.open or whole.open:
         return False
-    if len(whole.elements) == count:
-        return True
-    return len(part.elements) <= len(whole.elements) and bool(
-        np.isin(part.elements, whole.elements, assume_unique=True).all()
-    )
-
-
-def _called(earlier: NamedSet, later: NamedSet) -> str:
-    same = folded(earlier.name) == folded(later.name)
-    return "the earlier definition of this set" if same else f"the earlier definition of SET={shown(earlier.name)}"
+    return bool(np.isin(part.elements, whole.elements, assume_unique=True).all())
 
 
 def _counted(scene: Scene, elements: Indices) -> str:

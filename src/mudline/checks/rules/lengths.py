@@ -89,11 +89,10 @@ def odd_coordinates(context: LintContext) -> Iterator[Problem]:
     """Yield the problems of UNT006 in nodes and elements."""
     scene = context.scene
     least, most = np.minimum.reduce(scene.length, initial=1.0), np.maximum.reduce(scene.length, initial=0.0)
-    even = most <= LONGEST_ELEMENT * least  # not so where a length is not known
+    even = most <= LONGEST_ELEMENT * least  # not so where a length is not known; this saves much memory
     far = {} if even else dict(_far_nodes(scene))
-    return chain(
-        () if even else _elements(scene, far), _turning_back(scene, far), _skipping(scene), _decimal_commas(context)
-    )
+    odd = () if even else _elements(scene, far)
+    return chain(odd, _turning_back(scene, far), _skipping(scene), _decimal_commas(context))
 
 
 def _elements(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:

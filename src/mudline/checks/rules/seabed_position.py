@@ -24,10 +24,8 @@ SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
 CRV014 = Code("CRV014", "beyond-curve", Severity.INFO)
 UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)
 
-_VERTICAL = 90.0
 DEEPEST = 5.0
 """Depth below the seabed in diameters."""
-_IN_PLANE = (1, 2)
 HIGHEST, HIGHEST_IN_USER_UNITS = 3.0, 10.0
 """Largest height of a model, in water depths."""
 TALLEST = 500.0
@@ -93,7 +91,7 @@ def _is_bed(scene: Scene) -> bool:
     floor = scene.seabed
     if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
         return False
-    return all(abs(slope) < _VERTICAL for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
+    return all(abs(slope) < 90.0 for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
 
 
 def steepness(scene: Scene) -> Floats:
@@ -234,7 +232,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if "RIGID" not in scene.laws.types or "ELASTIC" in scene.laws.types:
         return
-    held = [line for line in scene.held if line.dof in _IN_PLANE]
+    held = [line for line in scene.held if line.dof in (1, 2)]
     if not held or scene.context.restart:  # the deck that is continued may constrain the other one
         return
     constrained = np.zeros((2, len(scene.node_ids)), dtype=np.bool_)

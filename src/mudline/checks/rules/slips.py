@@ -40,8 +40,6 @@ _POUND_MASS = 0.45359237
 _GRAVITY = 9.80665
 _SLUG = POUND / FOOT
 _KIP = 1e3 * POUND
-_GALLON = 231 * _INCH**3
-_KNOT = 1852 / 3600
 SLIPS = {
     "L": {"mm": 1e-3, "inches": _INCH, "ft": FOOT, "m": 1.0, "cm": 1e-2},
     "F": {"N": 1.0, "kN": 1e3, "MN": 1e6, "lbf": POUND, "kip": _KIP, "tonnes": 1e3 * _GRAVITY},
@@ -73,13 +71,13 @@ SLIPS = {
         "t/m3 or g/cm3": 1e3,
         "slug/ft3": _SLUG / FOOT**3,
         "lb/ft3": _POUND_MASS / FOOT**3,
-        "lb/gal": _POUND_MASS / _GALLON,
+        "lb/gal": _POUND_MASS / (231 * _INCH**3),
         "lb/in3": _POUND_MASS / _INCH**3,
         "t/mm3": 1e12,
         "N/m3": 1 / _GRAVITY,
         "kN/m3": 1e3 / _GRAVITY,
     },
-    "L/T": {"m/s": 1.0, "cm/s": 1e-2, "knots": _KNOT, "ft/s": FOOT},
+    "L/T": {"m/s": 1.0, "cm/s": 1e-2, "knots": 1852 / 3600, "ft/s": FOOT},
     "L/T2": {"m/s2": 1.0, "ft/s2": FOOT, "cm/s2": 1e-2},
     "L2/T": {"m2/s": 1.0, "mm2/s": 1e-6, "ft2/s": FOOT**2},
     "T": {"s": 1.0, "ms": 1e-3, "minutes": 60.0, "hours": 3600.0},

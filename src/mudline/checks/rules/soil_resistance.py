@@ -27,9 +27,6 @@ SBD024 = Code("SBD024", "one-friction-coefficient", Severity.WARNING)
 CRV015 = Code("CRV015", "repeated-depth", Severity.WARNING)
 CRV016 = Code("CRV016", "soil-gains-again", Severity.INFO)
 
-_CHARACTERISTIC = (3.048, 10.0)
-_SHORTEST = 1e-4
-_UNKNOWN = float("nan")
 _OF_SET = {
     "lateral": ("lateral",),
     "suction_stiffness": ("suction", "stiffness"),
@@ -53,7 +50,7 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:10
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         friction = entry.value("transverse")
         both = entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction)
         if both and not friction_replaced(context, entry):
@@ -76,9 +73,9 @@ def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:21
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         length = entry.value("longitudinal_mobilisation")
-        if not entry.legacy and length in _CHARACTERISTIC:
+        if not entry.legacy and length in (3.048, 10.0):
             message = (
                 f"{length!r} is a usual characteristic length of legacy surfaces, and the third field of FRICTION= is "
                 "the mobilisation length (inferred from the value): give that, or remove it"
@@ -101,7 +98,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:27
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         for direction in DIRECTIONS:
             name = f"{direction}_stiffness"
             idle = positive(entry.value(name)) and absent(entry, direction)
@@ -117,7 +114,7 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
     blocks = [placed for section in ("LOAD CASE", "MODES") for placed in context.blocks("FRICTION", section)]
     if not blocks or scene.context.restart or "SEABED FRICTION" in context.keywords:
         return
-    entries = given(context)
+    entries = context.once(given)
     for direction in DIRECTIONS if entries else ():
         if not all(absent(entry, direction) for entry in entries):
             continue
@@ -145,7 +142,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:15
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         if positive(entry.value("suction_extent")) and absent(entry, "suction_stiffness"):
             message = "a suction zone without suction stiffness has no effect: give the stiffness, or remove the extent"
             yield Problem(SBD015, message, where=entry.place("suction_extent"))
@@ -170,7 +167,7 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:27
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         for direction in DIRECTIONS if entry.legacy else ():
             name = f"{direction}_length"
             both = positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation"))
@@ -195,7 +192,7 @@ def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         longitudinal = entry.value("longitudinal")
         single = positive(longitudinal) and entry.value("transverse") is None and absent(entry, "transverse")
         sprung = entry.type_ != "RIGID" and positive(entry.value("lateral"))
@@ -224,7 +221,8 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     Finds: 17:21
     """
     scene = context.scene
-    if not context.once(resisting) or not (resistance := scene.resistance).has_mobilisation:
+    resistance = scene.resistance
+    if not resistance.has_mobilisation:
         return
     lengths, friction = resistance.column("mobilisation"), resistance.column("friction")
     friction[resistance.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it
@@ -232,7 +230,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
         friction[replacing.of_element >= 0] = 0.0
     for side, name in enumerate(("longitudinal_mobilisation", "transverse_mobilisation")):
         length = lengths[:, side]
-        short = (length > 0.0) & (friction[:, side] > 0.0) & (length < _SHORTEST * scene.diameter)
+        short = (length > 0.0) & (friction[:, side] > 0.0) & (length < 1e-4 * scene.diameter)
         for index in sorted(set(resistance.of_element[short].tolist())):
             where = resistance.places[index]
             path = (name,) if where.path[0] == "properties" else ("friction", name)
@@ -260,7 +258,7 @@ class FrictionEntry(NamedTuple):
             number = getattr(number, step, None)
         if number is None:
             return None
-        return float(cast("float", number)) if isinstance(number, float | int) else _UNKNOWN
+        return float(cast("float", number)) if isinstance(number, float | int) else math.nan
 
     def _path(self, name: str) -> tuple[str, ...]:
         return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
@@ -280,18 +278,6 @@ def given(context: LintContext) -> list[FrictionEntry]:
     for where, properties, type_ in typed_blocks(context.scene.context):
         entries += [FrictionEntry(entry, at, type_, legacy=False) for at, entry in records_of([(where, properties)])]
     return entries
-
-
-def resisting(context: LintContext) -> list[FrictionEntry]:
-    """Return the surfaces and sets that give more than a stiffness, which the rules about friction need."""
-    return [
-        entry
-        for entry in given(context)
-        if entry.legacy
-        or entry.part.friction is not None
-        or entry.part.lateral is not None
-        or entry.part.suction is not None
-    ]
 
 
 def positive(value: float | None) -> bool:

@@ -197,16 +197,12 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
     """
     for head in (trimmed(source, *line) for line in head_lines(text) if _SMALL.search(source, *line)):
         written = source[slice(*head)]
-        if _known(written):
+        # The text after the name may be a remark.
+        if canonical_name(written) in (catalogue.SECTIONS if written[0] == "$" else catalogue.keywords()):
             what = "section" if written[0] == "$" else "keyword"
             repair = Repair("safe", "write it in upper case", ((head, written.translate(_UPPER)),))
             message = f"the {what} is not in upper case: write it in upper case"
             yield Problem(STY006, message, head, repair=repair)
-
-
-def _known(head: str) -> bool:
-    """Return True if a line begins with a known section or keyword; the text after the name may be a remark."""
-    return canonical_name(head) in (catalogue.SECTIONS if head[0] == "$" else catalogue.keywords())
 
 
 def head_lines(text: TextOrigin) -> Iterator[Span]:
@@ -239,7 +235,6 @@ def unused_suppression(context: LintContext) -> Iterator[Problem]:
 
 # --------------------------------------------------------------------------------------- separators, blanks and numbers
 
-_TAB_WIDTH = 8
 _TABS = re.compile(r"\t\t*")  # a pattern that begins with a letter is sought many times as fast
 _NUMERALS = r"[-+.0-9][-+.0-9eEdD]*+"
 _ROW = rf"{_NUMERALS}[ \t]++{_NUMERALS}[-+.0-9eEdD \t\r]*+(?![^\n])"
@@ -281,7 +276,7 @@ def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
     inked = len(body.rstrip(" \t"))
     first, last = body.index("\t"), body.rindex("\t") + 1
     start, end = min(first, inked), last if last <= inked else len(body)
-    new = body[: min(last, inked)].expandtabs(_TAB_WIDTH)[start:]
+    new = body[: min(last, inked)].expandtabs(8)[start:]
     message = "replace it by spaces" if new else "remove it"
     return Repair("safe", message, ((Span(line.start + start, line.start + end), new),))
 
@@ -385,13 +380,8 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
                 values = ((span, read.model.at(paths[span])[1]) for span in spans if span in paths)
                 numbers = [span for span, value in values if isinstance(value, int | float)]
             if numbers:
-                yield _problem(source, numbers)
-
-
-def _problem(source: str, numbers: list[Span]) -> Problem:
-    """Return one problem for the numbers of a line, at the first of them."""
-    new = [source[slice(*span)].translate(_TO_E) for span in numbers]
-    more = f" (and {len(numbers) - 1} more on this line)" if len(numbers) > 1 else ""
-    message = f"the exponent D is Fortran's: write {new[0]}{more}"
-    repair = Repair("safe", "write E", tuple(zip(numbers, new, strict=True)))
-    return Problem(STY003, message, numbers[0], repair=repair)
+                new = [source[slice(*span)].translate(_TO_E) for span in numbers]
+                more = f" (and {len(numbers) - 1} more on this line)" if len(numbers) > 1 else ""
+                message = f"the exponent D is Fortran's: write {new[0]}{more}"
+                repair = Repair("safe", "write E", tuple(zip(numbers, new, strict=True)))
+                yield Problem(STY003, message, numbers[0], repair=repair)
