@@ -1,4 +1,4 @@
-"""Overlaps of what elements and nodes are given: properties, conditions, seabed laws; two elements in one place."""
+"""What elements and nodes are given twice, or not at all: properties, conditions, seabed laws, their own place."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.checks.context import LintContext, records_of
-from mudline.checks.rules.model_parts import without_sections
+from mudline.checks.rules.model_parts import lacks, without_sections
+from mudline.checks.rules.references import in_water
 from mudline.checks.rules.seabed_position import first_of
+from mudline.checks.rules.seabed_support import in_another_pipe
 from mudline.language.codes.contact import SBD025
 from mudline.language.codes.references import REF010
 from mudline.language.deck.parameters import folded
@@ -31,6 +33,7 @@ from mudline.model.scene.unread_lines import is_of_vessels
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import SeabedProperties, SeabedSet
 
+GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)
 GEO013 = Code("GEO013", "overlapping-properties", Severity.INFO)
 GEO014 = Code("GEO014", "parallel-elements", Severity.WARNING)
 BND001 = Code("BND001", "held-twice", Severity.WARNING)
@@ -88,6 +91,50 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     for words, where, keywords in reported.values():
         also = f"{' and '.join(dict.fromkeys(keywords))} also give{'s' * (len(set(keywords)) == 1)}"
         yield Problem(GEO013, f"{also} {words}; correct the sets, if that is not meant", where=where)
+
+
+@rule(GEO008)
+def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
+    """Elements have no hydrodynamic properties in a load case with waves or a current.
+
+    No set of *HYDRODYNAMIC SETS holds them, so neither drag nor added mass acts on them. That is right in a moonpool,
+    and a mistake elsewhere. Inner pipes of *PIP SECTION need no coefficients. Put the elements into a set with
+    coefficients.
+
+    Example on held:
+         $MODEL
+        |*OCEAN
+        | 420.0, 1025.0, 9.81
+
+          GEN=1, 2
+        |*ELEMENT SETS
+        | SET=Pipe
+        - 1
+        + 1, 2
+        |*HYDRODYNAMIC SETS
+        | SET=Pipe, TYPE=CONSTANT
+        | 1.0, 0.0, 2.0
+         $LOAD CASE
+        |*CURRENT
+        | TYPE=UNIFORM
+        | 0.5
+
+    Finds: 10:2
+    """
+    scene = context.scene
+    if not any(in_water(context.deck)) or not lacks(context, "elements", "hydrodynamics"):
+        return
+    covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    for _, entry in records_of(context.blocks("HYDRODYNAMIC SETS")):
+        set_ = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
+        if set_ is None:
+            return
+        covered[set_.elements] = True
+    bare = np.flatnonzero(~(covered | without_sections(scene) | in_another_pipe(scene)))
+    if bare.size:
+        what = first_of("element", scene.element_ids[bare[0]], bare.size)
+        message = f"{what} without coefficients in *HYDRODYNAMIC SETS: give them, else neither drag nor added mass acts"
+        yield Problem(GEO008, message, where=scene.table.numbered.where(int(bare[0])))
 
 
 @rule(GEO014)

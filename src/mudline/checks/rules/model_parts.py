@@ -20,6 +20,7 @@ from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number
 from mudline.model.contact.input import LawKind
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask
 from mudline.model.scene.sections import Section, format_of
@@ -34,6 +35,7 @@ GEO007 = Code("GEO007", "element-without-section", Severity.WARNING)
 GEO009 = Code("GEO009", "node-without-element", Severity.INFO)
 GEO010 = Code("GEO010", "end-not-held", Severity.INFO)
 GEO015 = Code("GEO015", "no-elements", Severity.INFO)
+GEO016 = Code("GEO016", "added-mass-order", Severity.INFO)
 
 _PARTS = ("MODEL", "LOAD CASE")
 _BENDING = ("eiyy", "eizz")
@@ -174,6 +176,44 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
         if bare.where is not None and not on_curve and folded(bare.name) not in _passed_through(scene):
             message = f"the elements of SET={shown(bare.name)} have no section: give one in *GEOMETRIC SETS"
             yield Problem(GEO006, message, where=bare.where)
+
+
+@rule(GEO016)
+def added_mass_order(context: LintContext) -> Iterator[Problem]:
+    """A line of `*HYDRODYNAMIC SETS` gives two different added mass coefficients, whose order is inferred.
+
+    mudline reads the normal coefficient first, as in decks of the older program (.das). The manual's page on theory
+    lists the tangential one first, and no public page shows the line itself. Nothing that mudline evaluates depends on
+    the order, but it matters if the values are copied. If the coefficients are the defaults, the normal inertia minus 1
+    and 0, leave both fields empty: then there is no doubt.
+
+    Example on sets:
+          GEN=3, 4
+        |*HYDRODYNAMIC SETS
+        | SET=ALL, TYPE=CONSTANT
+        - 1.0, 0.0, 2.0, 1.0, 0.0
+        + 1.0, 0.0, 2.0
+
+    Finds: 16:17
+    """
+    if context.deck.file.lower().endswith(".das"):
+        return
+    lines = []
+    for where, entry in records_of(context.blocks("HYDRODYNAMIC SETS")):
+        normal, tangential, inertia = (
+            number(entry.constant, name) for name in ("normal_added_mass", "tangential_added_mass", "normal_inertia")
+        )
+        if abs(normal - tangential) > 0.0:
+            lines.append((where.inside("constant", "normal_added_mass"), normal, tangential, inertia))
+    if lines:
+        where, normal, tangential, inertia = lines[0]
+        others = f"; so are those of {len(lines) - 1} more sets" * (len(lines) > 1)
+        defaults = normal == inertia - 1.0 and tangential == 0.0
+        advice = "these are the defaults, remove both" if defaults else "keep them if they are meant so"
+        message = (
+            f"the added masses are read as {normal:g} normal, {tangential:g} tangential (inferred){others}: {advice}"
+        )
+        yield Problem(GEO016, message, where=where)
 
 
 def without_sections(scene: Scene) -> Mask:

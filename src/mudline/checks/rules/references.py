@@ -1,4 +1,4 @@
-"""Names that are defined in one place and used in another: sets, parameters, vessels, the water, data files."""
+"""Names that are defined in one place and used in another: sets, parameters, vessels, water, outputs, data files."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.outside import without_text
+from mudline.basics.spelling import Effort, nearest
 from mudline.checks.context import LintContext, records_of
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, folded, list_items
@@ -18,9 +19,10 @@ from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, 
 from mudline.language.keywords.model import FieldSpec, Part
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import is_unknown, known_name
-from mudline.language.keywords.values import DataFile
+from mudline.language.keywords.values import DataFile, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.edits import TextEdit, with_line_ends
+from mudline.language.syntax.fields import read_line
 from mudline.model.scene.data_files import fault_of, has_uneven_times, operators, unequal_frequencies
 from mudline.model.scene.deck_values import file_name, find_file
 from mudline.model.scene.references import THINGS, repeated
@@ -36,8 +38,8 @@ REF016 = Code("REF016", "repeated-set", Severity.WARNING)
 REF017 = Code("REF017", "repeated-parameter", Severity.WARNING)
 REF018 = Code("REF018", "missing-ocean", Severity.WARNING)
 REF020 = Code("REF020", "repeated-name", Severity.WARNING)
+REF021 = Code("REF021", "misspelt-output", Severity.WARNING)
 DAT002 = Code("DAT002", "faulty-data", Severity.ERROR)
-
 
 LONGEST_LIST = 20
 
@@ -264,6 +266,59 @@ def missing_ocean(context: LintContext) -> Iterator[Problem]:
         if where.section < len(context.deck.own_sections):
             yield Problem(REF018, f"*{keyword} needs the depth of the water: give *OCEAN in $MODEL", where=where)
             return
+
+
+# ---------------------------------------------------------------------------------------------------- requested results
+
+WORDS = (
+    *("EFFECTIVE", "TENSION", "AXIAL", "FORCE", "LOCAL", "SHEAR", "BENDING", "MOMENT", "TORQUE", "CURVATURE"),
+    *("RESULTANT", "STRESS", "STRAIN", "MISES", "REACTION", "MOTION", "DISPLACEMENT", "VELOCITY", "ACCELERATION"),
+)
+"""Words in the names of outputs, from the manual's page on the database of forces; the list is not complete."""
+_REQUESTS = "POSTPROCESSING"
+_SHORTEST = 4
+"""Number of letters from which a word is compared."""
+
+
+@rule(REF021)
+def misspelt_output(context: LintContext) -> Iterator[Problem]:
+    """The name of an output variable has a word that is nearly one of the usual words.
+
+    Results are requested by name, such as EFFECTIVE TENSION. With one wrong letter the run ends without them, and hours
+    are lost. Correct the word. Other words are not reported, as not every variable is known.
+
+    Example:
+         $SUMMARY POSTPROCESSING
+         *PARA FORCE
+          DATA1=12
+          DATA2=1
+        - DATA3=EFFECTIVE TENSON
+        + DATA3=EFFECTIVE TENSION
+
+    Finds: 5:8
+    """
+    if not any(section.name.endswith(_REQUESTS) for section in context.deck.own_sections):
+        return
+    effort = Effort()
+    own = len(context.deck.own_sections)
+    used = context.scene.context.names[Names.VARIABLE].used
+    requests = [(use.where, use.name) for use in used if use.where.section < own]
+    for where, name in [*requests, *_of_kept_lines(context)]:
+        words = name.upper().replace("-", " ").split()
+        for word in words:
+            near = nearest(word, WORDS, effort) if word not in WORDS and len(word) >= _SHORTEST else ""
+            if near and word not in (f"{near}S", f"{near}ES"):
+                message = f"output {shown(name)}: {shown(word)} is no usual word (did you mean {near}?)"
+                yield Problem(REF021, f"{message}: correct it, else the run gives no such output", where=where)
+
+
+def _of_kept_lines(context: LintContext) -> Iterator[tuple[Where, str]]:
+    """Yield the texts at the start of unread postprocessing lines that begin without a setting."""
+    for where, _, line in context.scene.context.unread_lines:
+        if context.deck.sections[where.section].name.endswith(_REQUESTS):
+            first = read_line(line, Span(0, len(line))).groups[0]
+            if not first.key and first.fields[0].text[:1].isalpha():
+                yield where.inside(*first.fields[0].span), first.fields[0].text
 
 
 # ----------------------------------------------------------------------------------------------------------- data files

@@ -10,7 +10,7 @@ from itertools import chain, takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
 from mudline.checks.context import Found, Joined, LintContext, joint, records_of
-from mudline.checks.rules.hydrodynamics import TIM003, TIM004, WAV002
+from mudline.checks.rules.load_cases import TIM003, TIM004, WAV002
 from mudline.checks.rules.seabed_position import UNT006
 from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001
