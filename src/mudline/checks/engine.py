@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import JOINTS, ROW_NUMBER, Joined, LintContext, also_in, read_deck
+from mudline.checks.registry import rules
 from mudline.checks.suppression import suppressions
 from mudline.language.codes.fields import SYN002, SYN003, SYN015
 from mudline.language.codes.lines import SYN001, SYN004, SYN009, SYN010, SYN014
@@ -82,8 +83,6 @@ class LintSettings:
 
 def _with_rules(codes: frozenset[str], *others: Any) -> LintSettings:  # noqa: ANN401 - the fields behind the first
     """Return settings with the rules of these codes; raises ImportError if a package with some of them is missing."""
-    from mudline.checks.registry import rules  # noqa: PLC0415 - it imports the rules, which import this
-
     found = tuple(rule for rule in rules() if rule.code.code in codes)
     if len(found) < len(codes):
         raise ImportError(f"no rule {', '.join(sorted(codes - {rule.code.code for rule in found}))}")
@@ -135,11 +134,8 @@ def _as_severe(context: LintContext, meant: Recovered) -> list[Problem]:
     if judged is None:
         return causes
     others = {(one.code, one.message) for one in meant.context.scene.blocking()}
-    following = [
-        one
-        for one in judged.scene.blocking()
-        if one.weight is not Severity.INFO and (one.code, one.message) not in others
-    ]
+    blocking = (one for one in judged.scene.blocking() if one.weight is not Severity.INFO)
+    following = [one for one in blocking if (one.code, one.message) not in others]
     if not following:
         return causes
     worst = max((one.weight for one in doubtful), key=lambda severity: severity.rank)
@@ -203,8 +199,6 @@ def naming_causes(deck: Deck) -> Iterator[None]:
     try:
         yield
     except DeckError as error:
-        from mudline.checks.registry import rules  # noqa: PLC0415 - only where the deck is refused
-
         raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
 
 
@@ -220,7 +214,10 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
         if rule.check is None or rule.blocks:
             found += noticed.get(rule.code.code, ())
         else:
-            found += map(_advice, next(advice))
+            # Advice does not keep a deck from being evaluated.
+            found += [
+                one if one.blocking is Blocks.NEVER else replace(one, blocks=Blocks.NEVER) for one in next(advice)
+            ]
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 
@@ -228,11 +225,6 @@ def of_base(deck: Deck, problem: Problem) -> bool:
     """Return True if a problem of a scene lies in a deck that `deck` continues, and not in `deck` itself."""
     beyond = problem.where is not None and problem.where.section >= len(deck.sections)
     return beyond or isinstance(problem, BaseProblem)
-
-
-def _advice(problem: Problem) -> Problem:
-    """Return a problem as one that does not keep the deck from being evaluated."""
-    return problem if problem.blocking is Blocks.NEVER else replace(problem, blocks=Blocks.NEVER)
 
 
 def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:

@@ -237,7 +237,6 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
 # --------------------------------------------------------------------------------------------------------- the baseline
 
 FORMAT = "mudline-baseline/1"
-_KEYS = {"path", "code", "content", "count"}
 _RECORDED = 500
 """Number of characters of a line that are recorded."""
 
@@ -319,11 +318,9 @@ def read_baseline(path: Path) -> Baseline:
 
 
 def _entry(finding: object, number: int) -> tuple[BaselineEntry, int]:
-    if not isinstance(finding, dict) or finding.keys() != _KEYS:
-        raise BaselineError(f"findings[{number}] must have the keys {', '.join(sorted(_KEYS))}, and no others")
-    path, code, content, count = (finding[key] for key in ("path", "code", "content", "count"))
-    if not (isinstance(path, str) and isinstance(code, str) and isinstance(content, str)):
-        raise BaselineError(f"findings[{number}]: path, code and content must be texts")
-    if not isinstance(count, int) or isinstance(count, bool) or count < 1:
-        raise BaselineError(f"findings[{number}]: count must be a whole number from 1")
-    return BaselineEntry(path, code, content), count
+    match finding:
+        case {"path": str(path), "code": str(code), "content": str(content), "count": int(count), **others}:
+            if not others and not isinstance(count, bool) and count > 0:
+                return BaselineEntry(path, code, content), count
+    keys = "the keys path, code and content, which are texts, and count, a whole number from 1"
+    raise BaselineError(f"findings[{number}] must have {keys}, and no others")

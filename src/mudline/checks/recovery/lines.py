@@ -133,8 +133,6 @@ class Blocks:
 
     def missing(self, what: Names) -> list[str]:
         """Return the names of a kind that are used and not defined."""
-        if self.keywords.isdisjoint(catalogue.users(what)):
-            return []
         if what not in self._missing:
             defined = {ALL} if what is Names.SET else set[str]()
             found = [one for one in self._names if one.kind is what]

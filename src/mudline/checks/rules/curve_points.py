@@ -16,7 +16,7 @@ from mudline.language.rules import rule
 from mudline.model.curves import ForceCurve
 from mudline.model.scene.curves import SceneCurve, clashes_and_repeats
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.numbering import Indices
 
 CRV002 = Code("CRV002", "unsorted-points", Severity.INFO)
 CRV004 = Code("CRV004", "repeated-point", Severity.WARNING)
@@ -225,7 +225,8 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
     Finds: 4:2
     """
     for curve in context.scene.laws.curves:
-        if _free_above(curve.points):
+        until = curve.points[curve.points[:, 0] <= 0.0]
+        if (until[:, 0] == 0.0).any() and (until[:, 1] == 0.0).all():
             continue
         above = np.flatnonzero(curve.points[:, 0] < 0.0)[: 1 if is_upside_down(curve) else MOST_REPORTED]
         for index in above.tolist():
@@ -234,12 +235,6 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
             drawn = ", as all of them do: are depths negative?" if is_upside_down(curve) else drawn
             message = f"ratio {ratio!r} lies above the mudline, and contact begins at 0: remove or correct it{drawn}"
             yield Problem(CRV006, message, where=curve.point(index))
-
-
-def _free_above(points: Floats) -> bool:
-    """Return True if a curve has no force above the mudline, up to a point at 0."""
-    above = points[points[:, 0] <= 0.0]
-    return bool((above[:, 0] == 0.0).any() and (above[:, 1] == 0.0).all())
 
 
 @rule(CRV004)

@@ -371,21 +371,16 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
             yield Problem(DAT002, f"{shown(path.name)} cannot be used: {shown_fault}", where=named.where)
 
 
-class OperatorRows(NamedTuple):
-    """File of the operators of a vessel: its place in the deck, its name, and its rows in the form of LAYOUT=LINE."""
+def operator_files(context: LintContext) -> list[tuple[Where, str, list[list[float]]]]:
+    """Return the files of operators that a deck names and that can be used.
 
-    where: Where
-    name: str
-    rows: list[list[float]]
-
-
-def operator_files(context: LintContext) -> list[OperatorRows]:
-    """Return the files of operators that a deck names and that can be used."""
+    Each has its place in the deck, its name, and its rows in the form of LAYOUT=LINE.
+    """
     files = []
     for named, path in context.once(_there):
         if named.slot.about.holds is DataFile.OPERATORS and _is_own(named):
             with suppress(OSError, ValueError):  # DAT002 says why
-                files.append(OperatorRows(named.where, path.name, operators(path, _layout(named))))
+                files.append((named.where, path.name, operators(path, _layout(named))))
     return files
 
 

@@ -125,7 +125,6 @@ _KNOWN = {
     "metric": DeckUnits("metric"),
     "imperial": DeckUnits("imperial", FOOT, POUND, _SLUG),
 }
-_TONNES = DeckUnits("tonnes", force=1e3, mass=1e3)
 _LIGHT = (0.9, 1.3)
 """Range of densities of water in t/m3."""
 
@@ -137,7 +136,7 @@ def units_of(context: LintContext) -> DeckUnits:
     for _, ocean in reversed(context.blocks("OCEAN")):
         density, gravity = number(ocean, "density"), number(ocean, "gravity")
         if _LIGHT[0] <= density <= _LIGHT[1] and abs(gravity - _GRAVITY) < 0.02 * _GRAVITY:
-            return _TONNES
+            return DeckUnits("tonnes", force=1e3, mass=1e3)
     return DeckUnits("user", known=False)
 
 

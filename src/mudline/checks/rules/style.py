@@ -36,15 +36,16 @@ _SMALL = re.compile(r"[a-z]")
 _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
 
 
-def rule_of_text(
-    code: Code, *, off: bool = False
-) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
+Find = Callable[[TextOrigin, str], Iterator[Problem]]
+
+
+def rule_of_text(code: Code, *, off: bool = False) -> Callable[[Find], object]:
     """Return a decorator that makes a rule of a function of a text and its unified source.
 
     Nothing is reported in a deck without a text.
     """
 
-    def register(find: Callable[[TextOrigin, str], Iterator[Problem]]) -> object:
+    def register(find: Find) -> object:
         @rule(code, off=off)
         @wraps(find)
         def check(context: LintContext) -> Iterable[Problem]:

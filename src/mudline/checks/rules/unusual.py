@@ -79,16 +79,16 @@ def _of_deck(deck: Numbers) -> list[Judged]:
 
 def _in_files(deck: Numbers) -> Iterator[Judged]:
     """Yield unusual values in the files of operators that a deck names, one finding for each file."""
-    for file in deck.context.once(operator_files):
+    for where, name, rows in deck.context.once(operator_files):
         from mudline.language.keywords.library.vessel_motions import VesselRao  # noqa: PLC0415 - few decks have one
 
         columns = record_schema(VesselRao).slots
         lines = next(slot for slot in columns if slot.name == "lines")
-        of = replace(deck, where=file.where, columns=columns)
-        for judged in _in_table(of, lines, Table(np.array(file.rows).reshape(len(file.rows), -1))):
-            heading, frequency = file.rows[cast("int", cast("Where", judged.problem.where).path[-2])][:2]
-            message = f"{file.name}, heading {heading:g}, frequency {frequency:g}: {judged.problem.message}"
-            yield judged._replace(problem=replace(judged.problem, message=message, where=file.where))
+        of = replace(deck, where=where, columns=columns)
+        for judged in _in_table(of, lines, Table(np.array(rows).reshape(len(rows), -1))):
+            heading, frequency = rows[cast("int", cast("Where", judged.problem.where).path[-2])][:2]
+            message = f"{name}, heading {heading:g}, frequency {frequency:g}: {judged.problem.message}"
+            yield judged._replace(problem=replace(judged.problem, message=message, where=where))
 
 
 # ------------------------------------------------------------------------------------------------------- what is judged
@@ -227,12 +227,8 @@ def _name(part: Part) -> str:
     return next((f" {shown(name)}" for name in named if isinstance(name, str)), "")
 
 
-_Advice = tuple[str, Sequence[FieldSpec]]
-"""Advice on a value in words, and the fields of its row that it explains."""
-
-
-def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> _Advice:
-    """Return the advice on a value: the unit, the exchange or the comma that explains it."""
+def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> tuple[str, Sequence[FieldSpec]]:
+    """Return the unit, the exchange or the comma that explains a value, in words, and the fields that it explains."""
     if of.table is not None:
         return _advice_on_curve(of, slot, usual), ()
     if usual.of.startswith("m "):  # a distance in space, of which the number is a part
@@ -267,7 +263,7 @@ def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
     return f"write {ordinate.label} in{of.units.behind(ordinate.about.unit)}" + (f" ({words}?)" if words else "")
 
 
-def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> _Advice | None:
+def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> tuple[str, Sequence[FieldSpec]] | None:
     """Return the advice to exchange a value with its neighbour, or to remove a comma of thousands, if either fits."""
     row = [(first, number(of.part, first.name)) for first in of.columns if not first.key and not first.row]
     row = [(first, value) for first, value in row if not math.isnan(value)]
