@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from mudline.checks import joining
+from mudline.checks import engine
 from mudline.checks.context import Joined, LintContext
-from mudline.checks.joining import joined_findings
+from mudline.checks.engine import joined_findings
 from mudline.language.codes.fields import SYN002, SYN003
 from mudline.language.codes.lines import SYN014
 from mudline.language.deck.loading import load_bytes
@@ -127,50 +127,50 @@ def test_a_finding_is_as_bad_as_those_below_it() -> None:
         (info, [at(1, severity=Severity.WARNING, blocks=Blocks.ALWAYS)], (Severity.ERROR, Blocks.ALWAYS)),
         (warning, [at(1, severity=Severity.ERROR, blocks=Blocks.NEVER)], (Severity.ERROR, Blocks.NEVER)),
     ):
-        found = joining._joined(cause, others, "words")
+        found = engine._joined(cause, others, "words")
         assert (found.weight, found.blocking) == expected
         assert found.following == tuple(others)
         assert found.message == "bad; words"
 
 
 def test_how_many_are_left_out_is_said_where_a_joint_has_no_words() -> None:
-    assert joining._joined(at(1), [at(2)], "").message == "bad; 1 finding that follows from it is left out"
-    assert joining._joined(at(1), [at(2)] * 2, "").message == "bad; 2 findings that follow from it are left out"
+    assert engine._joined(at(1), [at(2)], "").message == "bad; 1 finding that follows from it is left out"
+    assert engine._joined(at(1), [at(2)] * 2, "").message == "bad; 2 findings that follow from it are left out"
 
 
 def test_what_was_below_those_below_is_beside_them() -> None:
-    inner = joining._joined(at(3), [at(4)], "x")
-    found = joining._joined(joining._joined(at(1), [at(2)], "x"), [inner], "y")
+    inner = engine._joined(at(3), [at(4)], "x")
+    found = engine._joined(engine._joined(at(1), [at(2)], "x"), [inner], "y")
     assert [(one.span, one.following) for one in found.following] == [(at(row).span, ()) for row in (2, 3, 4)]
 
 
 def test_the_repair_of_findings_that_say_the_same_mends_all_of_them() -> None:
     other = replace(repair("a", "c"), message="mend too")
     one, two, bare = at(1, repair=repair("b", "c")), at(2, repair=other), at(3)
-    mended = joining._joined(one, [two], "x").repair
+    mended = engine._joined(one, [two], "x").repair
     assert mended is not None
     assert [text for _, text in mended.edits] == ["a", "b", "c"]
     assert (mended.applicability, mended.message) == ("safe", "mend")
-    assert joining._joined(one, [two, bare], "x").repair is None
-    assert joining._joined(bare, [one], "x").repair is None
+    assert engine._joined(one, [two, bare], "x").repair is None
+    assert engine._joined(bare, [one], "x").repair is None
     # what follows from a finding of another kind goes with it
-    assert joining._joined(one, [at(2, code=SYN003)], "x").repair == one.repair
-    assert joining._joined(one, [at(2, code=SYN003, repair=repair("a"))], "x").repair == one.repair
+    assert engine._joined(one, [at(2, code=SYN003)], "x").repair == one.repair
+    assert engine._joined(one, [at(2, code=SYN003, repair=repair("a"))], "x").repair == one.repair
 
 
 def test_a_joint_may_say_it_in_other_words_at_another_place(monkeypatch: pytest.MonkeyPatch) -> None:
     cause, other, apart = at(1, "cause", NAMED), at(4, "other"), at(7, "apart")
     place = at(9).span
     joint = Joined(cause, [other], "words", "both", place)
-    monkeypatch.setattr(joining, "JOINTS", [(frozenset({"TST001"}), lambda *_: iter([joint]))])
+    monkeypatch.setattr(engine, "JOINTS", [(frozenset({"TST001"}), lambda *_: iter([joint]))])
     assert joined(cause, other, apart) == [(9, "both; words", 1), (7, "apart", 0)]
-    monkeypatch.setattr(joining, "JOINTS", [(frozenset({"TST001"}), lambda *_: iter([Joined(cause, [other])]))])
+    monkeypatch.setattr(engine, "JOINTS", [(frozenset({"TST001"}), lambda *_: iter([Joined(cause, [other])]))])
     assert joined(cause, other) == [(1, "cause; 1 finding that follows from it is left out", 1)]
     # none for a deck without its codes, of nothing, and of what is below another already
-    monkeypatch.setattr(joining, "JOINTS", [(frozenset({"TST002"}), lambda *_: iter([joint]))])
+    monkeypatch.setattr(engine, "JOINTS", [(frozenset({"TST002"}), lambda *_: iter([joint]))])
     assert len(joined(cause, other)) == 2
-    monkeypatch.setattr(joining, "JOINTS", [(frozenset({"TST001"}), lambda *_: iter([Joined(cause, [])]))])
+    monkeypatch.setattr(engine, "JOINTS", [(frozenset({"TST001"}), lambda *_: iter([Joined(cause, [])]))])
     assert joined(cause, other) == [(1, "cause", 0), (4, "other", 0)]
     below = [Joined(cause, [other], "a"), Joined(other, [apart], "b"), Joined(cause, [apart], "c")]
-    monkeypatch.setattr(joining, "JOINTS", [(frozenset({"TST001"}), lambda *_: iter(below))])
+    monkeypatch.setattr(engine, "JOINTS", [(frozenset({"TST001"}), lambda *_: iter(below))])
     assert joined(cause, other, apart) == [(1, "cause; a; c", 2)]

@@ -391,22 +391,27 @@ def decks_in(path: Paths, *, including: bool = False) -> list[Path]:
     Decks that the nearest configuration excludes are left out; those that it includes are taken with `including`.
     Raises FileNotFoundError for a folder without a deck, and ConfigurationError for an unusable configuration.
     """
+    is_one = isinstance(path, str | bytes | os.PathLike | Mapping) or not isinstance(path, Iterable)
+    files: list[Path] = []
+    for each in [path] if is_one else cast("Iterable[object]", path):
+        place = given_path(each, "save it to a file")
+        decks = _decks_below(place, including=including) if place.is_dir() else [place]
+        if not decks:
+            raise FileNotFoundError(errno.ENOENT, "no deck in this folder", str(place))
+        files += decks
+    return files
+
+
+def _decks_below(folder: Path, *, including: bool) -> list[Path]:
     from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck  # noqa: PLC0415 - many name one file
 
-    is_one = isinstance(path, str | bytes | os.PathLike | Mapping) or not isinstance(path, Iterable)
-    files, own = list[Path](), Configured()
+    own = Configured()
 
     def wanted(file: str) -> bool:
         taken = own.includes(file) if including else is_in_any_form(file)
         return taken and not own.excludes(file) and may_be_deck(file)
 
-    for each in [path] if is_one else cast("Iterable[object]", path):
-        place = given_path(each, "save it to a file")
-        decks = [Path(file) for _, file in Search(str(place)).files(wanted)] if place.is_dir() else [place]
-        if not decks:
-            raise FileNotFoundError(errno.ENOENT, "no deck in this folder", str(place))
-        files += decks
-    return files
+    return [Path(file) for _, file in Search(str(folder)).files(wanted)]
 
 
 def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:

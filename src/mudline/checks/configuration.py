@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache, reduce
 from pathlib import Path
@@ -83,6 +82,11 @@ class Configuration:
     def table(self, key: str) -> dict[str, Any]:
         """Return a table, empty if it is not set."""
         return dict(self.values.get(key, {}))
+
+    def lists(self, key: str, path: str) -> bool:
+        """Return True if a pattern of a list, `include` or `exclude`, matches the path of a file."""
+        patterns = self.words(key)
+        return bool(patterns) and matches(self.relative(path), patterns)
 
     @property
     def fail_on(self) -> str:
@@ -246,15 +250,6 @@ def _hint(word: str, choices: Iterable[str]) -> str:
     return f": did you mean {near}?" if near else f": choose from {', '.join(choices)}"
 
 
-def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
-    for name in ("mudline.toml", "pyproject.toml"):
-        path = folder / name
-        is_there = os.path.isfile(path)  # noqa: PTH113 - Path raises for a folder that may not be searched
-        if is_there and (configuration := read_configuration(path, demanded=False, code_fault=code_fault)):
-            return configuration
-    return None
-
-
 @dataclass(eq=False)
 class Configured:
     """Source of each deck's configuration: a file `config`, none (`isolated`), or the nearest one upwards.
@@ -276,8 +271,7 @@ class Configured:
         if self.isolated:
             self._fixed = Configuration()
         elif self.config is not None:
-            with _reading_one():
-                self._fixed = read_configuration(Path(self.config), code_fault=self.code_fault) or Configuration()
+            self._fixed = self._read(Path(self.config)) or Configuration()
 
     def of(self, path: str | None) -> Configuration:
         """Return the configuration of a file, by its path or the name given for standard input.
@@ -294,19 +288,26 @@ class Configured:
     def _upwards(self, folder: Path) -> Configuration:
         for place in (folder, *folder.parents):
             if place not in self._in_folder:
-                with _reading_one():
-                    self._in_folder[place] = _in(place, self.code_fault)
+                files = (place / name for name in ("mudline.toml", "pyproject.toml"))
+                there = filter(os.path.isfile, files)  # Path raises for a folder that may not be searched
+                read = (self._read(file, demanded=False) for file in there)
+                self._in_folder[place] = next((each for each in read if each), None)
             if here := self._in_folder[place]:
                 return here
         return Configuration()
+
+    def _read(self, path: Path, *, demanded: bool = True) -> Configuration | None:
+        try:
+            return read_configuration(path, demanded=demanded, code_fault=self.code_fault)
+        except OSError as error:
+            what = f"{error.filename}: the configuration cannot be read"
+            raise ConfigurationError(f"{what}: {(error.strerror or str(error)).lower()}") from error
 
     def includes(self, path: str) -> bool:
         """Return True if a file is a deck in any form, or `include` of its configuration takes it for one."""
         from mudline.language.deck.searching import is_in_any_form  # noqa: PLC0415 - help has none
 
-        configuration = self.of(path)
-        include = configuration.words("include")
-        return is_in_any_form(path) or (bool(include) and matches(configuration.relative(path), include))
+        return is_in_any_form(path) or self.of(path).lists("include", path)
 
     def encoding(self, path: str) -> str:
         """Return the encoding that the file's configuration gives, "" if it gives none."""
@@ -314,18 +315,7 @@ class Configured:
 
     def excludes(self, path: str) -> bool:
         """Return True if `exclude` of the file's configuration leaves the file out."""
-        configuration = self.of(path)
-        exclude = configuration.words("exclude")
-        return bool(exclude) and matches(configuration.relative(path), exclude)
-
-
-@contextmanager
-def _reading_one() -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        what = f"{error.filename}: the configuration cannot be read"
-        raise ConfigurationError(f"{what}: {(error.strerror or str(error)).lower()}") from error
+        return self.of(path).lists("exclude", path)
 
 
 @lru_cache(maxsize=256)

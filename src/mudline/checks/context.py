@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
@@ -12,7 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 from mudline.basics.limits import MOST_REPORTED
 from mudline.editing.variations.names import misspelt_actions, undefined_parameters, undefined_variations
 from mudline.language.deck.loading import load_bytes
-from mudline.language.deck.model import Deck
+from mudline.language.deck.model import Deck, Origin
 from mudline.language.deck.parameters import DEFINING
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
@@ -123,8 +124,7 @@ def _read_piece(piece: _Piece, declared: type[Block], last: bool, older: bool) -
 
 def read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Return the result of `read_block` for a block; blocks with the same text share their model."""
-    start = raw.head.span.start
-    end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
+    start, end = raw.head.span.start, (raw.leaves or [raw.head])[-1].span.end
     if end - start > _SHORT_BLOCK:
         return read_block(text, raw, declared, last=last)
     piece = _Piece(text[start:end])
@@ -157,12 +157,12 @@ def read_deck(
 # ---------------------------------------------------------------------------------------------- for rules
 
 
-def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> list[tuple[Where, Any]]:
-    """Return every entry below a SET= of some blocks, with its place."""
+def records_of(blocks: Iterable[tuple[Where, Any]], name: str = "sets") -> list[tuple[Where, Any]]:
+    """Return every record in a list of some blocks, by default what stands below a SET=, with its place."""
     return [
-        (where._replace(path=("sets", index)), entry)
+        (where._replace(path=(name, index)), record)
         for where, block in blocks
-        for index, entry in enumerate(block.sets)
+        for index, record in enumerate(getattr(block, name) or ())
     ]
 
 
@@ -187,7 +187,6 @@ class Joined(NamedTuple):
 
 Found = Mapping[str, Sequence[Problem]]
 """Findings in a deck by code."""
-
 Join = Callable[[LintContext, Found], Iterator[Joined]]
 JOINTS: list[tuple[frozenset[str], Join]] = []
 """Joints of all rules, each with the codes of which the deck must have at least one."""
@@ -204,3 +203,15 @@ def joint(*codes: Code) -> Callable[[Join], Join]:
         return join
 
     return register
+
+
+ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
+"""Number at the beginning of a row."""
+
+
+def also_in(origin: Origin, others: Sequence[Problem]) -> str:
+    """Return in words the other lines with the same fault."""
+    *lines, last = sorted({origin.place_in_file(one).line for one in others})
+    if not lines:
+        return f"the same in line {last}"
+    return f"the same in {len(lines) + 1} more lines, the last of them line {last}"

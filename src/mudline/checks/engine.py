@@ -1,23 +1,39 @@
-"""Running rules over decks, under the settings of a run."""
+"""Running rules over decks, under the settings of a run; findings that repeat another one are joined to it."""
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from mudline.checks.context import LintContext, read_deck
+from mudline.basics.short_repr import counted
+from mudline.checks.context import JOINTS, ROW_NUMBER, Joined, LintContext, also_in, read_deck
+from mudline.checks.registry import rules
 from mudline.checks.suppression import suppressions
-from mudline.language.codes.lines import SYN009, SYN010
+from mudline.language.codes.fields import SYN002, SYN003, SYN015
+from mudline.language.codes.lines import SYN001, SYN004, SYN009, SYN010, SYN014
+from mudline.language.codes.references import REF007
 from mudline.language.deck.faults import MisspeltDeckError
 from mudline.language.deck.loading import coverage_of
-from mudline.language.deck.model import BaseProblem, Deck, Opaque
+from mudline.language.deck.model import BaseProblem, Deck, Opaque, Origin
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity, strongest
+from mudline.language.diagnostics import (
+    MORE,
+    Blocks,
+    Coverage,
+    DeckError,
+    Diagnostic,
+    Problem,
+    Repair,
+    Severity,
+    strongest,
+)
 from mudline.language.keywords.contents import repeated_set
 from mudline.language.keywords.model import Block
 from mudline.language.rules import Rule, findings
@@ -67,8 +83,6 @@ class LintSettings:
 
 def _with_rules(codes: frozenset[str], *others: Any) -> LintSettings:  # noqa: ANN401 - the fields behind the first
     """Return settings with the rules of these codes; raises ImportError if a package with some of them is missing."""
-    from mudline.checks.registry import rules  # noqa: PLC0415 - it imports the rules, which import this
-
     found = tuple(rule for rule in rules() if rule.code.code in codes)
     if len(found) < len(codes):
         raise ImportError(f"no rule {', '.join(sorted(codes - {rule.code.code for rule in found}))}")
@@ -96,14 +110,9 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
         meant = recovered(context, {rule.code.code for rule in chosen}, suppress=suppress)
     found = problems_in(meant.context if meant else context, chosen)
     if meant is not None:
-        found = [*meant.as_written(found)]
-        found = [*_as_severe(context, meant), *found]
+        found = [*_as_severe(context, meant), *meant.as_written(found)]
     found = _misspelt_as_errors(context, found)
     found = unsuppressed(context, found, chosen) if suppress else found
-    if not found:
-        return found
-    from mudline.checks.joining import joined_findings  # noqa: PLC0415 - most decks are without a finding
-
     return joined_findings(context, found)
 
 
@@ -125,11 +134,8 @@ def _as_severe(context: LintContext, meant: Recovered) -> list[Problem]:
     if judged is None:
         return causes
     others = {(one.code, one.message) for one in meant.context.scene.blocking()}
-    following = [
-        one
-        for one in judged.scene.blocking()
-        if one.weight is not Severity.INFO and (one.code, one.message) not in others
-    ]
+    blocking = (one for one in judged.scene.blocking() if one.weight is not Severity.INFO)
+    following = [one for one in blocking if (one.code, one.message) not in others]
     if not following:
         return causes
     worst = max((one.weight for one in doubtful), key=lambda severity: severity.rank)
@@ -193,8 +199,6 @@ def naming_causes(deck: Deck) -> Iterator[None]:
     try:
         yield
     except DeckError as error:
-        from mudline.checks.registry import rules  # noqa: PLC0415 - only where the deck is refused
-
         raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
 
 
@@ -210,7 +214,10 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
         if rule.check is None or rule.blocks:
             found += noticed.get(rule.code.code, ())
         else:
-            found += map(_advice, next(advice))
+            # Advice does not keep a deck from being evaluated.
+            found += [
+                one if one.blocking is Blocks.NEVER else replace(one, blocks=Blocks.NEVER) for one in next(advice)
+            ]
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 
@@ -218,11 +225,6 @@ def of_base(deck: Deck, problem: Problem) -> bool:
     """Return True if a problem of a scene lies in a deck that `deck` continues, and not in `deck` itself."""
     beyond = problem.where is not None and problem.where.section >= len(deck.sections)
     return beyond or isinstance(problem, BaseProblem)
-
-
-def _advice(problem: Problem) -> Problem:
-    """Return a problem as one that does not keep the deck from being evaluated."""
-    return problem if problem.blocking is Blocks.NEVER else replace(problem, blocks=Blocks.NEVER)
 
 
 def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
@@ -269,3 +271,126 @@ def covered_findings(
     except DeckError as error:
         return list(error.diagnostics), Coverage()
     return lint_context(LintContext(deck, dialect=dialect), chosen), coverage_of(deck)
+
+
+# ---------------------------------------------------------------------------------------------------- joining
+
+
+FEWEST = 3
+"""Number of consecutive rows, or fields of a row, with the same fault that are joined; two may be separate faults."""
+MOST_NAMED = 4
+"""Number of rows below the first one whose numbers are named."""
+_OF_ROWS = frozenset(code.code for code in (SYN001, SYN002, SYN003, SYN004, SYN014, SYN015, REF007))
+"""Codes of faults of a row, which one slip gives to many rows."""
+_DIGITS = re.compile(r"-?[0-9]+")
+
+
+def joined_findings(context: LintContext, problems: list[Problem]) -> list[Problem]:
+    """Return the findings, with those that only repeat another one joined to it (`Problem.following`)."""
+    text, origin = context.text, context.deck.origin
+    if type(origin) is Origin:  # a program made the deck, which has no lines
+        return problems
+    by_code: dict[str, list[Problem]] = {}
+    for problem in problems:
+        if problem.message != MORE:
+            by_code.setdefault(problem.code.code, []).append(problem)
+    declared = (join(context, by_code) for codes, join in JOINTS if not codes.isdisjoint(by_code))
+    repeated = _repeated(text, by_code) if text else ()
+    under: dict[int, Problem] = {}
+    hidden: set[int] = set()
+    for joined in chain(*declared, repeated, _alike(origin, by_code)):
+        if id(joined.first) not in hidden and (joined.others or joined.message):
+            cause = under.get(id(joined.first), joined.first)
+            cause = replace(cause, message=joined.message or cause.message, span=joined.place or cause.span)
+            others = [under.get(id(each), each) for each in joined.others]
+            under[id(joined.first)] = _joined(cause, others, joined.words) if others else cause
+            hidden.update(map(id, joined.others))
+    return [under.get(id(joined), joined) for joined in problems if id(joined) not in hidden]
+
+
+def _joined(cause: Problem, others: Sequence[Problem], words: str) -> Problem:
+    """Return a finding with others joined to it: as severe as the worst, and an error if one prevents evaluation."""
+    everything = (cause, *others)
+    blocks = strongest(everything)
+    severity = max((item.weight for item in everything), key=lambda severity: severity.rank)
+    below = tuple(each for item in others for each in (replace(item, following=()), *item.following))
+    left_out = "finding that follows from it is" if len(others) == 1 else "findings that follow from it are"
+    return replace(
+        cause,
+        message=f"{cause.message}; {words or f'{len(others)} {left_out} left out'}",
+        severity=Severity.ERROR if blocks is Blocks.ALWAYS else severity,
+        blocks=blocks,
+        repair=cause.repair and _of_all(everything)
+        if all(item.code is cause.code for item in others)
+        else cause.repair,
+        following=(*cause.following, *below),
+    )
+
+
+def _of_all(problems: Sequence[Problem]) -> Repair | None:
+    """Return the repair of a finding with the edits of equal findings; None if one of them has no repair."""
+    repairs = [problem.repair for problem in problems if problem.repair]
+    if len(repairs) < len(problems):
+        return None
+    return replace(repairs[0], edits=tuple(sorted({edit for repair in repairs for edit in repair.edits})))
+
+
+def _repeated(text: TextOrigin, by_code: dict[str, list[Problem]]) -> Iterator[Joined]:
+    """Yield further fields of the same row, and consecutive rows with the same fault."""
+    for code in _OF_ROWS & by_code.keys():
+        rows: dict[int, list[Problem]] = {}
+        for problem in by_code[code]:
+            rows.setdefault(text.place(problem).line, []).append(problem)
+        after = 0
+        for line, row in sorted(rows.items()):
+            if line < after:
+                continue
+            after = line + 1
+            while after in rows and _said(rows[after][0]) == _said(row[0]):
+                after += 1
+            below = [rows[each] for each in range(line + 1, after)] if after - line >= FEWEST else []
+            after = after if below else line + 1
+            whole_row = len(row) == text.source.line(line).count(",") + 1
+            same = row[1:] if len(row) >= FEWEST or whole_row or code == SYN014.code else []
+            yield Joined(row[0], [*same, *chain(*below)], f"and {' and '.join(_counts(text, same, below))}")
+
+
+def _said(problem: Problem) -> str:
+    """Return the message of a row without its numbers."""
+    return _DIGITS.sub("0", problem.message)
+
+
+def _counts(text: TextOrigin, same: Sequence[Problem], below: Sequence[Sequence[Problem]]) -> Iterator[str]:
+    """Yield in words the number of further fields of a row, and the rows below it, with the same fault."""
+    if same:
+        yield f"{counted(len(same), 'more field')} of this row"
+    if below:
+        lines = [text.place(row[0]).line for row in below]
+        ids = [number[1] for line in lines if (number := ROW_NUMBER.match(text.source.line(line)))]
+        named = f" ({', '.join(ids)})" if len(ids) == len(below) <= MOST_NAMED else ""
+        yield f"{len(below)} more rows of this block{named}, the last in line {text.place_in_file(below[-1][0]).line}"
+
+
+def _lacking(problem: Problem) -> str:
+    """Return the name that a deck lacks; for numbers that one unread line may define, return that line."""
+    doubt = problem.message.rpartition("; ")[2]
+    one_cause = problem.lacks.isdecimal() and doubt.endswith("could not be used may define it")
+    return doubt if one_cause else problem.lacks.casefold()
+
+
+def _alike(origin: Origin, by_code: dict[str, list[Problem]]) -> Iterator[Joined]:
+    """Yield further lines that use an undefined name, and further fields of a row with the same message.
+
+    The fields of a row are joined only in a text: a line of JSON may be the whole deck.
+    """
+    has_rows = isinstance(origin, TextOrigin)
+    for code, problems in by_code.items():
+        alike: dict[tuple[str, int], list[Problem]] = {}
+        for problem in problems if len(problems) > 1 else ():
+            if problem.lacks:
+                alike.setdefault((_lacking(problem), 0), []).append(problem)
+            elif has_rows and code not in _OF_ROWS:
+                alike.setdefault((problem.message, origin.place(problem).line), []).append(problem)
+        for first, *others in (sorted(same, key=lambda one: origin.place(one).line) for same in alike.values()):
+            fields = f"and {counted(len(others), 'more field')} of it"
+            yield Joined(first, others, also_in(origin, others) if others and first.lacks else fields)

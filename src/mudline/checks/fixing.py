@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
@@ -20,7 +20,7 @@ from mudline.basics.limits import MOST_PASSES, MOST_TRIES
 from mudline.basics.outside import refusing_outside
 from mudline.checks.context import LintContext
 from mudline.checks.engine import Fixing, LintSettings, covered_findings, joined_problems
-from mudline.checks.recovery.blocks import start_of
+from mudline.checks.recovery.lines import start_of
 from mudline.checks.report import FileReport
 from mudline.checks.suppression import MARK
 from mudline.language.deck.forms import form_of
@@ -250,11 +250,8 @@ class FixState:
     @property
     def unreadable(self) -> list[Problem]:
         """Errors of reading."""
-        return [
-            problem
-            for problem in self.deck.problems
-            if problem.weight is Severity.ERROR and problem.code.code.startswith("SYN")
-        ]
+        errors = (problem for problem in self.deck.problems if problem.weight is Severity.ERROR)
+        return [error for error in errors if error.code.code.startswith("SYN")]
 
     @cached_property
     def comments(self) -> Counter[str]:
@@ -262,14 +259,6 @@ class FixState:
         text = self.source.unified
         comments = (text[slice(*leaf.span)] for leaf in self.text.tree.leaves() if leaf.kind is LeafKind.COMMENT)
         return Counter(" ".join(comment[1:].split()) for comment in comments if not MARK.match(comment))
-
-    def untouched(self, edits: Sequence[Span]) -> Iterator[tuple[int, int]]:
-        """Yield section and block of every block that no edit touches."""
-        for index, section in enumerate(self.text.tree.sections):
-            for number, block in enumerate(section.blocks):
-                start, end = block.head.span.start, (block.leaves or [block.head])[-1].span.end
-                if not any(edit.start <= end and start <= edit.end for edit in edits):
-                    yield index, number
 
 
 class StageReader(NamedTuple):
@@ -310,9 +299,13 @@ def _same_elsewhere(before: FixState, after: FixState, edits: Sequence[TextEdit]
     """Return True if both have the same blocks, with equal models where nothing was edited."""
     if _outline(before.deck) != _outline(after.deck):
         return False
-    sections, edited_sections = before.deck.sections, after.deck.sections
-    places = before.untouched([edit.span for edit in edits])
-    return all(sections[index].blocks[number] == edited_sections[index].blocks[number] for index, number in places)
+    for raw, own, edited in zip(before.text.tree.sections, before.deck.sections, after.deck.sections, strict=True):
+        for block, model, edited_model in zip(raw.blocks, own.blocks, edited.blocks, strict=True):
+            start, end = block.span
+            touched = any(edit.span.start <= end and start <= edit.span.end for edit in edits)
+            if not touched and model != edited_model:
+                return False
+    return True
 
 
 def _outline(deck: Deck) -> list[tuple[str, list[str]]]:

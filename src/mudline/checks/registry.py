@@ -124,7 +124,7 @@ def load(known: dict[str, Rule]) -> tuple[str, ...]:
     faults: list[str] = []
     for entry in sorted(_entries(), key=lambda entry: (entry.name, entry.value)):
         before = dict(known)
-        package = _package(entry)
+        package = f"{entry.dist.name} {entry.dist.version}" if entry.dist else entry.value
         fault = _run(entry) or _fault_of([rule for code, rule in known.items() if code not in before], own)
         if fault:
             known.clear()
@@ -143,10 +143,6 @@ def _entries() -> Sequence[EntryPoint]:
     from importlib.metadata import entry_points  # noqa: PLC0415 - only plugins need it
 
     return list({(entry.name, entry.value): entry for entry in entry_points(group=GROUP)}.values())
-
-
-def _package(entry: EntryPoint) -> str:
-    return f"{entry.dist.name} {entry.dist.version}" if entry.dist else entry.value
 
 
 def _run(entry: EntryPoint) -> str:

@@ -91,8 +91,7 @@ class Suppressions:
         STY010 is added for comments that hide nothing, if that rule and the rules named there are among the chosen.
         """
         selected = {rule.code.code for rule in chosen}
-        present = self._present(problems)
-        unused = first_reported(self._unused(present, selected)) if STY010.code in selected else []
+        unused = first_reported(self._unused(problems, selected)) if STY010.code in selected else []
         reported: list[Problem] = []
         hidden: list[Problem] = []
         for problem in [*problems, *unused]:
@@ -118,18 +117,10 @@ class Suppressions:
         for directive in self.directives:
             for number, word in enumerate(directive.words):
                 if not word.codes:
-                    near = nearest(word.text, _names())
+                    near = nearest(word.text, (name for rule in rules() for name in (rule.code.code, rule.code.slug)))
                     hint = f"did you mean {near}?" if near else "`mudline rules` lists all rules; remove it"
                     repair = _replacing(word, near) if near else _removing(directive, number, "unsafe")
                     yield Problem(STY010, f"{word.text!r} names no rule: {hint}", word.span, repair=repair)
-
-    def _present(self, problems: Iterable[Problem]) -> dict[Hashable, set[str]]:
-        """Return the codes of the findings in every scope."""
-        present: dict[Hashable, set[str]] = {}
-        for problem in problems:
-            for scope in self._scopes(problem):
-                present.setdefault(scope, set()).add(problem.code.code)
-        return present
 
     def _scopes(self, problem: Problem) -> tuple[Hashable, ...]:
         line = self.origin.place(problem).line
@@ -137,7 +128,11 @@ class Suppressions:
         block = self.blocks[at][1] if at >= 0 else _NOWHERE
         return (("line", line), block, ("file",))
 
-    def _unused(self, present: dict[Hashable, set[str]], selected: set[str]) -> Iterator[Problem]:
+    def _unused(self, problems: Iterable[Problem], selected: set[str]) -> Iterator[Problem]:
+        present: dict[Hashable, set[str]] = {}  # codes of the findings in every scope
+        for problem in problems:
+            for scope in self._scopes(problem):
+                present.setdefault(scope, set()).add(problem.code.code)
         everything = {rule.code.code for rule in rules() if not rule.off}
         for directive in self.directives:
             codes_found = present.get(directive.scope, set()) - {STY010.code}
@@ -239,16 +234,9 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
     return directive
 
 
-def _names() -> Iterator[str]:
-    """Yield the codes and slugs of all rules."""
-    for rule in rules():
-        yield from (rule.code.code, rule.code.slug)
-
-
 # --------------------------------------------------------------------------------------------------------- the baseline
 
 FORMAT = "mudline-baseline/1"
-_KEYS = {"path", "code", "content", "count"}
 _RECORDED = 500
 """Number of characters of a line that are recorded."""
 
@@ -330,11 +318,9 @@ def read_baseline(path: Path) -> Baseline:
 
 
 def _entry(finding: object, number: int) -> tuple[BaselineEntry, int]:
-    if not isinstance(finding, dict) or finding.keys() != _KEYS:
-        raise BaselineError(f"findings[{number}] must have the keys {', '.join(sorted(_KEYS))}, and no others")
-    path, code, content, count = (finding[key] for key in ("path", "code", "content", "count"))
-    if not (isinstance(path, str) and isinstance(code, str) and isinstance(content, str)):
-        raise BaselineError(f"findings[{number}]: path, code and content must be texts")
-    if not isinstance(count, int) or isinstance(count, bool) or count < 1:
-        raise BaselineError(f"findings[{number}]: count must be a whole number from 1")
-    return BaselineEntry(path, code, content), count
+    match finding:
+        case {"path": str(path), "code": str(code), "content": str(content), "count": int(count), **others}:
+            if not others and not isinstance(count, bool) and count > 0:
+                return BaselineEntry(path, code, content), count
+    keys = "the keys path, code and content, which are texts, and count, a whole number from 1"
+    raise BaselineError(f"findings[{number}] must have {keys}, and no others")

@@ -12,7 +12,7 @@ import click
 from mudline.basics.short_repr import counted
 from mudline.checks.engine import covered_findings
 from mudline.checks.registry import rules
-from mudline.checks.rules.unusual import CODES, UNT008
+from mudline.checks.rules.slips import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, require_text, takes_decks

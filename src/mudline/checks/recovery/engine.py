@@ -14,26 +14,19 @@ from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import NamedTuple
 
-from mudline.checks.context import LintContext, read_deck, read_once
+from mudline.checks.context import LintContext, also_in, read_deck, read_once
 from mudline.checks.recovery import lines, values
-from mudline.checks.recovery.blocks import (
-    Blocks,
-    Correction,
-    also_in,
-    head_start,
-    line_at,
-    start_of,
-)
+from mudline.checks.recovery.lines import Blocks, Correction, start_of
 from mudline.checks.rules.keywords import LEG001
 from mudline.checks.suppression import suppressions
 from mudline.language.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN007, SYN008, SYN009, SYN010, SYN011, SYN013
 from mudline.language.deck.forms import KEYWORD
-from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source, units_of
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords import catalogue
 from mudline.language.syntax.edits import OverlapError, TextEdit, Undoing, apply_edits, edited_bytes, with_line_ends
+from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.source import Source
 
 MOST_ROUNDS = 4
@@ -85,11 +78,6 @@ class Recovered:
     causes: list[Problem] = field(default_factory=list)
     steps: list[Undoing] = field(default_factory=list)
 
-    @property
-    def deck(self) -> Deck:
-        """Corrected deck."""
-        return self.context.deck
-
     def take(self, corrections: Sequence[Correction]) -> bool:
         """Read the deck with some corrections; return True if these could be made."""
         if (text := self.context.text) is None or not corrections:
@@ -127,11 +115,9 @@ class Recovered:
 
         A repair that a correction touches is left out.
         """
-        origin = self.deck.origin
+        origin = self.context.deck.origin
         for problem in problems:
-            span = problem.span
-            if span is None and problem.where is not None and isinstance(origin, TextOrigin):
-                span = origin.span(problem.where)
+            span = origin.span_of(problem) if isinstance(origin, TextOrigin) else problem.span
             # A deck is migrated as it is written, or not at all.
             repair = None if problem.code is LEG001 else problem.repair
             for step in reversed(self.steps):
@@ -160,11 +146,11 @@ def recovered(context: LintContext, codes: Collection[str], *, suppress: bool) -
     reported = hiding.split(reported, ())[0] if hiding else reported
     trials = MOST_TRIALS
     while len(found.steps) < MOST_ROUNDS and (text := found.context.text) is not None:
-        round_ = _Round(Blocks(found.deck, text), codes, trials)
+        round_ = _Round(Blocks(found.context.deck, text), codes, trials)
         if not found.take(round_.taken(reported)):
             break
         trials = round_.trials
-        reported = [one for one in found.deck.problems if one.code.code in codes]
+        reported = [one for one in found.context.deck.problems if one.code.code in codes]
     if found.context.scene.lacks:
         late = values.scene_corrections(found.context)
         wanted = [one for one in late if one.cause.code.code in codes]
@@ -203,17 +189,14 @@ class _Round:
             proposed.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
             for one in proposed:
                 start, end = one.region
+                line = self.text.source.line_around(one.edits[0].span.start)
                 apart = all(end <= other.region.start or other.region.end <= start for other in taken)
-                if apart and self._is_sayable(one) and self._is_better(one):
+                wanted = one.cause.code.code in self.codes and line.end - line.start <= LONGEST_LINE
+                if apart and wanted and self._is_better(one):
                     taken.append(one)
             explained = {id(one.cause) for one in taken}
             problems = [one for one in problems if one.repair is None and id(one) not in explained]
         return taken
-
-    def _is_sayable(self, correction: Correction) -> bool:
-        """Return True if the finding of a correction is wanted, and its line is not too long."""
-        line = line_at(self.text, correction.edits[0].span.start)
-        return correction.cause.code.code in self.codes and line.end - line.start <= LONGEST_LINE
 
     def _is_better(self, correction: Correction) -> bool:
         """Return True if a correction removes its fault and leaves fewer faults in the blocks around it."""
@@ -257,22 +240,20 @@ _DIGITS = re.compile(r"[0-9]+")
 
 def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Yield corrections of misspelt names; a name that is misspelt several times is corrected everywhere."""
-    alike: dict[tuple[str, str], list[Problem]] = {}
+    alike: dict[tuple[str, str], list[tuple[Problem, Repair]]] = {}
     for problem in problems:
         if problem.repair is not None:
-            alike.setdefault((problem.code.code, problem.message), []).append(problem)
+            alike.setdefault((problem.code.code, problem.message), []).append((problem, problem.repair))
     text = blocks.text
     for uses in alike.values():
-        problem = min(uses, key=lambda use: start_of(text, use))
-        repairs = [use.repair.edits for use in uses if use.repair is not None]
-        edits = tuple(TextEdit(span, written) for span, written in sorted(chain.from_iterable(repairs)))
-        first = edits[0].span
-        region = blocks.section_at(first.start) if problem.code is SYN010 else blocks.block_at(first.start)
-        others = [use for use in uses if use is not problem]
+        problem, repair = min(uses, key=lambda use: start_of(text, use[0]))
+        edits = tuple(TextEdit(*edit) for edit in sorted(chain.from_iterable(each.edits for _, each in uses)))
+        start = edits[0].span.start
+        region = blocks.section_at(start) if problem.code is SYN010 else blocks.block_at(start)
+        others = [use for use, _ in uses if use is not problem]
         message = f"{problem.message}; {also_in(text, others)}" if others else ""
-        does = problem.repair.message if problem.repair else ""
         if all(_differs(text.source.unified[slice(*edit.span)], edit.text) for edit in edits):
-            yield Correction(problem, edits, region, message, does, joins=edits[0].text.startswith("C "))
+            yield Correction(problem, edits, region, message, repair.message, joins=edits[0].text.startswith("C "))
 
 
 def _differs(written: str, corrected: str) -> bool:
@@ -285,7 +266,8 @@ def before_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Cor
     text = blocks.text
     tree = text.tree
     outside = {start_of(text, problem): problem for problem in problems}
-    run = [(head_start(text, block), block.name) for block in tree.preamble.blocks]
+    heads = (trimmed(text.source.unified, *block.head.span) for block in tree.preamble.blocks)
+    run = [(head.start, block.name) for head, block in zip(heads, tree.preamble.blocks, strict=True)]
     if not run or any(head not in outside for head, _ in run):  # a deck of another program is reported once
         return
     end = tree.sections[0].head.span.start if tree.sections and tree.sections[0].head else blocks.end
@@ -296,22 +278,16 @@ def before_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Cor
             outside[start], (TextEdit(Span(start, start + 1), "$"),), Span(start, end), message, certain=True
         )
         return
-    edits, words = _section_lines(run, "")
-    message = ""
-    if len(run) > 1:
-        message = f"the line {words} is missing above this one: *{name} stands before any $SECTION"
-    yield Correction(outside[start], edits, Span(start, end), message, certain=True)
-
-
-def _section_lines(run: list[tuple[int, str]], current: str) -> tuple[tuple[TextEdit, ...], str]:
-    """Return section lines for the keywords of a run that do not belong to the section before, and the first line."""
-    edits: list[TextEdit] = []
-    for head, keyword in run:
-        sections = catalogue.sections_of(keyword) or ((current,) if current else ("MODEL",))
+    edits, current, message = list[TextEdit](), "", ""
+    for head, keyword in run:  # a line for each keyword that does not belong to the section before
+        sections = catalogue.sections_of(keyword) or (current or "MODEL",)
         if current not in sections:
             current = sections[0]
             edits.append(TextEdit(Span(head, head), f"${current}\n"))
-    return tuple(edits), edits[0].text.strip() if edits else ""
+    if len(run) > 1:
+        words = edits[0].text.strip()
+        message = f"the line {words} is missing above this one: *{name} stands before any $SECTION"
+    yield Correction(outside[start], tuple(edits), Span(start, end), message, certain=True)
 
 
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)

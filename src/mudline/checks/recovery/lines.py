@@ -1,29 +1,24 @@
-"""Lines that belong to another keyword: their `*KEYWORD` line, its star or the name of their set is missing."""
+"""Lines that belong to another keyword: its `*KEYWORD` line, its star or the name of their set is missing.
+
+Here are also the input of a corrector, the blocks of a deck's text, and its output: a correction of a fault.
+"""
 
 from __future__ import annotations
 
 import re
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
-from functools import cache, lru_cache
+from dataclasses import dataclass, replace
+from functools import cache, cached_property, lru_cache
 from itertools import pairwise
 
-from mudline.checks.recovery.blocks import (
-    ROW_NUMBER,
-    Blocks,
-    Correction,
-    data_of,
-    line_at,
-    lines_of,
-    start_of,
-    whole,
-)
+from mudline.checks.context import ROW_NUMBER
 from mudline.checks.rules.coverage import SBD008
 from mudline.language.codes.contact import SBD006
 from mudline.language.codes.fields import SYN002, SYN003, SYN016
 from mudline.language.codes.lines import SYN001, SYN013
 from mudline.language.codes.references import REF007
+from mudline.language.deck.model import Deck, NamedPlace
 from mudline.language.deck.parameters import name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span
@@ -35,17 +30,127 @@ from mudline.language.keywords.values import Facts, Kind, Names
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.fields import first_key, trimmed
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import LeafKind, RawBlock, parse
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, parse
 from mudline.model.scene.references import CURVES, THINGS
+from mudline.model.scene.sets import ALL
 
 LONGEST_PIECE = 600
 """Number of characters of a block that are read to see which keyword its lines belong to."""
-
 MOST_NAMED = 5
 """Number of keywords that a finding names."""
-
 NAMED = CURVES | THINGS | {Names.SET, Names.CURVE}
 """Kinds of names that show the keyword of lines: a name of theirs is used and not defined."""
+
+
+# ------------------------------------------------------------------------------------------- blocks and corrections
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """Edits that may correct a fault, and the part of the text that they change.
+
+    cause: the finding of the fault.
+    edits: the edits.
+    region: the part of the text that is read differently with them.
+    message: message of the finding if the correction is accepted, "" for its own message.
+    does: the effect of the edits in words; the finding then has them as an unsafe repair.
+    certain: the correction needs no trial.
+    joins: the correction makes its lines part of the block above.
+    """
+
+    cause: Problem
+    edits: tuple[TextEdit, ...]
+    region: Span
+    message: str = ""
+    does: str = ""
+    certain: bool = False
+    joins: bool = False
+
+
+def start_of(text: TextOrigin, problem: Problem) -> int:
+    """Return the offset of a problem in the text, -1 if it has no place there."""
+    span = text.span_of(problem)
+    return -1 if span is None else span.start
+
+
+def data_of(leaves: Sequence[Leaf]) -> list[Leaf]:
+    """Return the lines that are not comments."""
+    return [leaf for leaf in leaves if leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)]
+
+
+def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
+    """Yield the lines of a block below its head, without their ends."""
+    first, last = (text.source.position(at)[0] for at in (block.span.start, block.span.end - 1))
+    return map(text.source.line_span, range(first + 1, last + 1))
+
+
+class Blocks:
+    """Blocks of a deck's text by their place.
+
+    blocks: all blocks, each with the name of its section.
+    keywords: names of all blocks.
+    """
+
+    def __init__(self, deck: Deck, text: TextOrigin) -> None:
+        self.deck = deck
+        self.text = text
+        self.end = len(text.source.unified)
+        self._sections = (text.tree.preamble, *text.tree.sections)
+        self.blocks = [(section.name, block) for section in self._sections for block in section.blocks]
+        self.keywords = {block.name for _, block in self.blocks}
+        self._heads = [section.head.span.start if section.head else 0 for section in self._sections]
+        self._block_starts = [block.head.span.start for _, block in self.blocks]
+        self._starts = sorted([*self._heads, *self._block_starts])
+        self._missing: dict[Names, list[str]] = {}
+
+    def block_at(self, offset: int) -> Span:
+        """Return the span from the head of the block (or section) around an offset to the next head."""
+        return self._around(self._starts, offset)
+
+    def section_at(self, offset: int) -> Span:
+        """Return the span from the head of the section around an offset to the next one."""
+        return self._around(self._heads, offset)
+
+    def _around(self, starts: list[int], offset: int) -> Span:
+        at = bisect_right(starts, offset)
+        return Span(starts[at - 1] if at else 0, starts[at] if at < len(starts) else self.end)
+
+    def declared_at(self, offset: int) -> type[Block] | None:
+        """Return the declaration of the block around an offset; None if its lines are not read."""
+        at = bisect_right(self._block_starts, offset)
+        block = self.blocks[at - 1][1] if at else None
+        if block is None or offset >= block.span.end:  # above the first block, or after the lines of a block
+            return None
+        return catalogue.block_class(self.section_name(offset), block.name)
+
+    def section_name(self, offset: int) -> str:
+        """Return the name of the section around an offset, "" before the first."""
+        return self._sections[max(bisect_right(self._heads, offset) - 1, 0)].name
+
+    @cached_property
+    def _names(self) -> list[NamedPlace]:
+        return self.deck.names()
+
+    def missing(self, what: Names) -> list[str]:
+        """Return the names of a kind that are used and not defined."""
+        if what not in self._missing:
+            defined = {ALL} if what is Names.SET else set[str]()
+            found = [one for one in self._names if one.kind is what]
+            models = (one for one in found if self.deck.sections[one.where.section].name == "MODEL")
+            defined |= {name_key(one.name) for one in models if one.role == "defines"}
+            given = (one.name for one in found if one.role == "names")
+            self._missing[what] = list(dict.fromkeys(name for name in given if name and name_key(name) not in defined))
+        return self._missing[what]
+
+    @cached_property
+    def lacked_curves(self) -> dict[str, list[Names]]:
+        """Names of curves that are used and not defined, each with the kinds of curves that it may be."""
+        found: dict[str, list[Names]] = {}
+        for kind in (Names.CURVE, *CURVES):
+            for name in self.missing(kind):
+                found.setdefault(name_key(name), []).append(kind)
+        return found
+
 
 # ------------------------------------------------------------------------------------------------------------- the star
 
@@ -56,12 +161,12 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     Lines without a problem are considered in column 1 only.
     """
     text = blocks.text
-    problems_by_line = {line_at(text, start_of(text, item)).start: item for item in reversed(problems)}
+    problems_by_line = {text.source.line_around(start_of(text, item)).start: item for item in reversed(problems)}
     for section in text.tree.sections:
         for leaf in (*section.leaves, *(leaf for block in section.blocks for leaf in block.leaves)):
             if leaf.kind not in (LeafKind.TEXT, LeafKind.UNDECIDED):
                 continue
-            line = line_at(text, leaf.span.start)
+            line = text.source.line_around(leaf.span.start)
             written = text.source.unified[slice(*line)].rstrip()
             name = _marked(written.lstrip(), section.name)
             problem = problems_by_line.get(line.start)
@@ -84,17 +189,12 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
 def _marked(line: str, section: str) -> str:
     """Return the keyword of a section that a line without a star is, or the section, with its mark; or ""."""
     name = line.upper()
-    if not line[:1].isalpha() or "=" in line or name not in _known():
+    if not line[:1].isalpha() or "=" in line:
         return ""
     sections = catalogue.sections_of(name)
     if sections is not None and (not sections or section in sections):
         return f"*{name}"
     return f"${name}" if name in catalogue.SECTIONS else ""
-
-
-@cache
-def _known() -> frozenset[str]:
-    return frozenset([*catalogue.keywords(), *catalogue.SECTIONS])
 
 
 # ------------------------------------------------------------------------------------------------ the line of a keyword
@@ -105,19 +205,19 @@ def keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corre
     text = blocks.text
     by_start = sorted((start_of(text, problem), number) for number, problem in enumerate(problems))
     for section, block in blocks.blocks if by_start else ():
-        first, end = (bisect_left(by_start, (at, 0)) for at in (block.head.span.end, whole(block).end))
+        first, end = (bisect_left(by_start, (at, 0)) for at in (block.head.span.end, block.span.end))
         inside = by_start[first:end]
         if inside and any(problems[number].weight is Severity.ERROR for _, number in inside):
             yield from _missing_line(blocks, section, block, problems[inside[0][1]], inside[0][0])
 
 
 def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem, at: int) -> Iterator[Correction]:
-    end = whole(block).end
+    end = block.span.end
     line = blocks.text.source.unified.rfind("\n", 0, at) + 1
     settings = [leaf.span.start for leaf in block.leaves if leaf.kind is LeafKind.SETTING and leaf.span.start < line]
     first = next((leaf.span.start for leaf in data_of(block.leaves)), end)
     declared = blocks.declared_at(at)
-    key = first_key(blocks.text.source.unified, line_at(blocks.text, line))
+    key = first_key(blocks.text.source.unified, blocks.text.source.line_around(line))
     is_own = declared is not None and cause.code in (SYN002, SYN003) and key in all_keys(declared)  # a value is wrong
     places = [*([] if is_own else [line]), *settings[-1:]]
     for place in (at for at in places if at > first):  # the block has lines of its own before it
@@ -221,7 +321,7 @@ def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correct
             if block.head.span.start in wrong or section.name not in (catalogue.sections_of(block.name) or ()):
                 continue
             for cause in _first_lines(blocks, block, text.read.get((number, index))):
-                lines = Span(line_at(text, start_of(text, cause)).start, whole(block).end)
+                lines = Span(text.source.line_around(start_of(text, cause)).start, block.span.end)
                 found = [*_keyword_line(blocks, section.name, block.name, cause, lines, present)]
                 yield from (replace(one, message=f"{cause.message}{one.message}") for one in found)
                 if found:
@@ -238,7 +338,7 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
     unified = text.source.unified
     facts = read.model.facts if read else Facts()
     lacking = [keyword for keyword in facts.beside if facts.defines and keyword not in blocks.keywords]
-    for name in _name_of_curve().finditer(unified, *whole(block)) if blocks.lacked_curves else ():
+    for name in _name_of_curve().finditer(unified, *block.span) if blocks.lacked_curves else ():
         kinds = blocks.lacked_curves.get(name_key(name[1]), [])
         if len(kinds) == 1 and block.name not in catalogue.definers(kinds[0]):
             yield Problem(SYN001, "", trimmed(unified, *name.span()))
@@ -256,7 +356,7 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
     path = repeated_set(read.model) if read and by_settings else ()
     again = read.places.find(path) if read and path else None
     for start in [again.start] if again else _foreign_lines(text, block, read):
-        line = trimmed(unified, *line_at(text, start))
+        line = trimmed(unified, *text.source.line_around(start))
         beginning = f"*{block.name} has {unified[slice(*line)]} above, and " if again else ""
         code = SBD008 if again else SBD006 if _is_telling(unified, line) else SYN001
         yield Problem(code, beginning, line, Severity.WARNING)
@@ -291,12 +391,12 @@ def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) ->
     offsets: list[int] = []
     declared, behind = type(read.model), False
     for above, leaf in pairwise(leaves[:-1]):
-        line = line_at(text, leaf.span.start)
+        line = text.source.line_around(leaf.span.start)
         key, value = first_key(unified, line), unified[slice(*line)].partition("=")[2]
         choice = is_choice(declared, key, value)
         unknown = bool(opened(declared, key, value)) and not choice
         behind = choice or (behind and line.start in kept)  # lines of an unknown form belong there
         if leaf.kind is LeafKind.SETTING and not behind and (unknown or line.start in kept):
             begins = above.kind is LeafKind.SETTING and above is not leaves[0]
-            offsets += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
+            offsets += [text.source.line_around(above.span.start).start, line.start] if begins else [line.start]
     return list(dict.fromkeys(offsets))[:MOST_NAMED]

@@ -7,16 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from mudline.basics.spelling import Effort, meant_names
-from mudline.checks.context import LintContext
-from mudline.checks.recovery.blocks import (
-    ROW_NUMBER,
-    Blocks,
-    Correction,
-    also_in,
-    behind,
-    line_at,
-    start_of,
-)
+from mudline.checks.context import ROW_NUMBER, LintContext, also_in
+from mudline.checks.recovery.lines import Blocks, Correction, start_of
 from mudline.checks.rules.style import INDENTED_COMMENT
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN001
@@ -56,14 +48,16 @@ def numbers(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
         unified = blocks.text.source.unified
         for number in _read_as(unified[slice(*span)]):
             if number[1] or declared.facts.tells_units or _goes_on(unified, span.start, number[0]):
-                yield Correction(problem, (TextEdit(span, number[0]),), line_at(blocks.text, span.start), certain=True)
+                yield Correction(
+                    problem, (TextEdit(span, number[0]),), blocks.text.source.line_around(span.start), certain=True
+                )
 
 
 def _is_known_by(blocks: Blocks, declared: type[Block], span: Span) -> bool:
     """Return True if other values depend on a value: it is a whole number, or shows the units."""
     if declared.facts.tells_units:
         return True
-    before = blocks.text.source.unified[line_at(blocks.text, span.start).start : span.start]
+    before = blocks.text.source.unified[blocks.text.source.line_around(span.start).start : span.start]
     key = before.partition("=")[0].strip().upper() if "=" in before else ""
     index = before.rpartition("=")[2].count(",")
     for slot in (slot for schema in schemas_of(declared) for slot in schema.slots if slot.key == key):
@@ -94,7 +88,7 @@ def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     for problem in problems:
         if problem.span is None or problem.weight is not Severity.ERROR:
             continue
-        line = line_at(blocks.text, problem.span.start)
+        line = blocks.text.source.line_around(problem.span.start)
         if line == tried:  # a line of 10^5 faults would be searched as often
             continue
         tried = line
@@ -106,12 +100,12 @@ def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
 def indented_comments(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Yield corrections of comments with spaces before their C, which make them data: the spaces are removed."""
     unified = blocks.text.source.unified
-    lines = {line_at(blocks.text, start_of(blocks.text, item)).start: item for item in reversed(problems)}
+    lines = {blocks.text.source.line_around(start_of(blocks.text, item)).start: item for item in reversed(problems)}
     for start, problem in lines.items():
         if problem.weight is Severity.ERROR and (comment := INDENTED_COMMENT.match(unified, start)):
             blanks = Span(start, start + len(comment[0]) - len(comment[0].lstrip(" \t")))
             words = "an indented line is data: if it is meant as a comment, put its C in column 1"
-            message, line = f"{problem.message}; {words}", line_at(blocks.text, start)
+            message, line = f"{problem.message}; {words}", blocks.text.source.line_around(start)
             yield Correction(problem, (TextEdit(blanks, ""),), line, message, does="put the C in column 1")
 
 
@@ -119,9 +113,9 @@ def decimal_commas(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corr
     """Yield corrections that join two fields, in a row with the maximum number of fields, by a decimal point."""
     text = blocks.text
     others = (one for one in blocks.deck.problems if one.code is not SYN015 and one.weight is Severity.ERROR)
-    errors = {line_at(text, start_of(text, one)) for one in others}
+    errors = {text.source.line_around(start_of(text, one)) for one in others}
     for problem in problems:
-        line = line_at(text, start_of(text, problem))
+        line = text.source.line_around(start_of(text, problem))
         if problem.span is None or line in errors:
             continue
         place = Span(problem.span.start, line.end)
@@ -210,17 +204,11 @@ def _given_twice(context: LintContext, text: TextOrigin) -> Iterator[Correction]
     noticed = context.scene.noticed
     lacking = {one.lacks for one in noticed if one.lacks and one.code in (REF005, REF006)}
     for problem in noticed if lacking else ():
-        at = start_of(text, problem)
-        if problem.code is not REF007 or at < 0:
+        if problem.code is not REF007 or text.span_of(problem) is None:
             continue
-        line = line_at(text, at)
-        unified = text.source.unified
-        places = (
-            line,
-            line_at(text, max(line.start - 1, 0)),
-            line_at(text, min(behind(text, line), len(unified))),
-        )
-        own, above, below = (ROW_NUMBER.match(unified, *place) for place in places)
+        line = text.place(problem).line
+        spans = (text.source.line_span(number) for number in (line, line - 1, line + 1))
+        own, above, below = (ROW_NUMBER.match(text.source.unified, *span) for span in spans)
         candidates = {str(int(row[1]) + step) for row, step in ((above, 1), (below, -1)) if row} & lacking
         if own and len(candidates) == 1:
             number, span = candidates.pop(), Span(*own.span(1))
@@ -240,7 +228,7 @@ def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]
         if span is None:
             continue
         line = f"{'SET' if curve.embedment else 'CURVE'}={names.pop(0)}"
-        place = Span(line_at(text, span.start).start, line_at(text, span.start).start)
+        place = Span(text.source.line_around(span.start).start, text.source.line_around(span.start).start)
         message = f"the points begin again here: the line {line} seems to be missing above this one"
         yield Correction(Problem(SYN001, message, span), (TextEdit(place, f" {line}\n"),), span, does=f"write {line}")
 

@@ -1,4 +1,4 @@
-"""Overlaps of what elements and nodes are given: properties, conditions, seabed laws; two elements in one place."""
+"""What elements and nodes are given twice, or not at all: properties, conditions, seabed laws, their own place."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.checks.context import LintContext, entries_of_sets
-from mudline.checks.rules.geometry import without_sections
+from mudline.checks.context import LintContext, records_of
+from mudline.checks.rules.model_parts import lacks, without_sections
+from mudline.checks.rules.references import in_water
 from mudline.checks.rules.seabed_position import first_of
+from mudline.checks.rules.seabed_support import in_another_pipe
 from mudline.language.codes.contact import SBD025
 from mudline.language.codes.references import REF010
 from mudline.language.deck.parameters import folded
@@ -30,6 +32,7 @@ from mudline.model.scene.sets import ALL, NamedSet
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import SeabedProperties, SeabedSet
 
+GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)
 GEO013 = Code("GEO013", "overlapping-properties", Severity.INFO)
 GEO014 = Code("GEO014", "parallel-elements", Severity.WARNING)
 BND001 = Code("BND001", "held-twice", Severity.WARNING)
@@ -70,13 +73,13 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
         places = [
             (keyword, where, scene.set_table.find(entry.set_name))
             for keyword in giving
-            for where, entry in entries_of_sets(context.blocks(keyword))
+            for where, entry in records_of(context.blocks(keyword))
             if is_name(entry.set_name)
         ]
         known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for *_, set_ in known], count):
             (before, _, first), (keyword, where, second) = known[earlier], known[later]
-            refined = before == keyword and (within(first, second, count) or within(second, first, count))
+            refined = before == keyword and (within(first, second) or within(second, first))
             if refined or first.open or second.open:
                 continue
             which = first_of("element", scene.element_ids[elements.min()], elements.size)
@@ -87,6 +90,50 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     for words, where, keywords in reported.values():
         also = f"{' and '.join(dict.fromkeys(keywords))} also give{'s' * (len(set(keywords)) == 1)}"
         yield Problem(GEO013, f"{also} {words}; correct the sets, if that is not meant", where=where)
+
+
+@rule(GEO008)
+def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
+    """Elements have no hydrodynamic properties in a load case with waves or a current.
+
+    No set of *HYDRODYNAMIC SETS holds them, so neither drag nor added mass acts on them. That is right in a moonpool,
+    and a mistake elsewhere. Inner pipes of *PIP SECTION need no coefficients. Put the elements into a set with
+    coefficients.
+
+    Example on held:
+         $MODEL
+        |*OCEAN
+        | 420.0, 1025.0, 9.81
+
+          GEN=1, 2
+        |*ELEMENT SETS
+        | SET=Pipe
+        - 1
+        + 1, 2
+        |*HYDRODYNAMIC SETS
+        | SET=Pipe, TYPE=CONSTANT
+        | 1.0, 0.0, 2.0
+         $LOAD CASE
+        |*CURRENT
+        | TYPE=UNIFORM
+        | 0.5
+
+    Finds: 10:2
+    """
+    scene = context.scene
+    if not any(in_water(context.deck)) or not lacks(context, "elements", "hydrodynamics"):
+        return
+    covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    for _, entry in records_of(context.blocks("HYDRODYNAMIC SETS")):
+        set_ = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
+        if set_ is None:
+            return
+        covered[set_.elements] = True
+    bare = np.flatnonzero(~(covered | without_sections(scene) | in_another_pipe(scene)))
+    if bare.size:
+        what = first_of("element", scene.element_ids[bare[0]], bare.size)
+        message = f"{what} without coefficients in *HYDRODYNAMIC SETS: give them, else neither drag nor added mass acts"
+        yield Problem(GEO008, message, where=scene.table.numbered.where(int(bare[0])))
 
 
 @rule(GEO014)
@@ -270,7 +317,13 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
     """
     if len(context.scene.element_ids):
         yield from _unused_properties(context)
-    yield from _unused_surfaces(context)
+    # Two types are reported by SBD002.
+    surfaces = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
+    for where, surface in surfaces[:-1]:
+        message = (
+            f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
+        )
+        yield Problem(SBD025, message, where=where.inside("properties"))
 
 
 def _unused_properties(context: LintContext) -> Iterator[Problem]:
@@ -293,16 +346,6 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
         if set_.elements.size or set_.where not in empty:
             place = grant.where._replace(path=(*grant.where.path[:2], "set"))
             yield Problem(SBD025, f"this definition applies to no element, as {why}", where=place)
-
-
-def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
-    """Yield legacy surfaces that a later one replaces, unless SBD002 reports two types."""
-    surfaces = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
-    for where, surface in surfaces[:-1]:
-        message = (
-            f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
-        )
-        yield Problem(SBD025, message, where=where.inside("properties"))
 
 
 def overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[tuple[int, int, Indices]]:
@@ -338,14 +381,15 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
         first, second = grants[earlier].set_, grants[later].set_
         where = grants[later].where
         place = where._replace(path=(*where.path[:2], "set"))
-        if within(first, second, len(scene.element_ids)):
+        if within(first, second):
+            of_set = "this set" if folded(first.name) == folded(second.name) else f"SET={shown(first.name)}"
             message = (
-                f"{_called(first, second)} is overridden by this one for all its elements: "
-                "put the larger set first, or remove one"
+                f"the earlier definition of {of_set} is overridden by this one for all its elements: put the larger "
+                "set first, or remove one"
             )
             lost = not _alike(scene, grants[earlier], grants[later])
             yield earlier, Problem(SBD008, message, None, Severity.WARNING if lost else None, place)
-        elif not within(second, first, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
+        elif not within(second, first) and not _alike(scene, grants[earlier], grants[later]):
             message = (
                 f"this definition overrides the earlier one of SET={shown(first.name)} for "
                 f"{_counted(scene, elements)}: give each element one definition"
@@ -353,22 +397,13 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
             yield earlier, Problem(SBD008, message, where=place)
 
 
-def within(part: NamedSet, whole: NamedSet, count: int) -> bool:
+def within(part: NamedSet, whole: NamedSet) -> bool:
     """Return True if the elements of one set are all in another one, as far as they are known."""
     if folded(whole.name) in (folded(part.name), folded(ALL)):
         return True
     if part.open or whole.open:
         return False
-    if len(whole.elements) == count:
-        return True
-    return len(part.elements) <= len(whole.elements) and bool(
-        np.isin(part.elements, whole.elements, assume_unique=True).all()
-    )
-
-
-def _called(earlier: NamedSet, later: NamedSet) -> str:
-    same = folded(earlier.name) == folded(later.name)
-    return "the earlier definition of this set" if same else f"the earlier definition of SET={shown(earlier.name)}"
+    return bool(np.isin(part.elements, whole.elements, assume_unique=True).all())
 
 
 def _counted(scene: Scene, elements: Indices) -> str:

@@ -10,12 +10,12 @@ import numpy as np
 
 from mudline.basics.limits import LISTED
 from mudline.checks.context import Found, Joined, LintContext, joint, of_variations
-from mudline.checks.rules.geometry import GEO006
+from mudline.checks.rules.model_parts import GEO006
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Blocks, Code, DeckError, Problem, Repair, Severity, Where
 from mudline.language.keywords.catalogue import is_extension
 from mudline.language.keywords.contents import is_name, is_read
-from mudline.language.keywords.model import Block, FieldSpec, Path
+from mudline.language.keywords.model import Block, FieldSpec
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.edits import with_line_ends
@@ -237,7 +237,9 @@ def given_twice(context: LintContext) -> Iterator[Problem]:
             seen.add(block.keyword)
             for path, slot, value in block.walk(_is_unique):
                 known = is_name(value) or (isinstance(value, int | float) and math.isfinite(value))
-                key = (block.keyword, *_list_of(path, j), slot.name, name_key(str(value)))
+                # The list of a block may go on in the next one, a list in a record may not.
+                of_list = path[:-2] if len(path) <= len(("records", 0, "field")) else (j, *path[:-2])
+                key = (block.keyword, *of_list, slot.name, name_key(str(value)))
                 if known and value != "" and key in seen:
                     yield Problem(REF022, _words(slot, value, block), where=Where(i, j, path))
                 seen.add(key)
@@ -245,11 +247,6 @@ def given_twice(context: LintContext) -> Iterator[Problem]:
 
 def _is_unique(slot: FieldSpec) -> bool:
     return slot.about.unique
-
-
-def _list_of(path: Path, block: int) -> Path:
-    """Return the path of the list whose records a field distinguishes; a list may go on in the next block."""
-    return path[:-2] if len(path) <= len(("records", 0, "field")) else (block, *path[:-2])
 
 
 def _words(slot: FieldSpec, value: object, block: Block) -> str:

@@ -1,50 +1,49 @@
-"""Load cases: the kind of run, its times, vessels and waves in it, and the results that are requested from it."""
+"""Load cases: the kind of run, its times, waves, currents and vessels."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, cast
+from itertools import chain
+from typing import Any, NamedTuple
 
-from mudline.basics.spelling import Effort, nearest
-from mudline.checks.context import LintContext
-from mudline.checks.rules.hydrodynamics import by_height, spans
+import numpy as np
+
+from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.references import in_water
 from mudline.language.deck.parameters import name_key
-from mudline.language.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
-from mudline.language.syntax.fields import read_line
-from mudline.model.scene.deck_values import number
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.analysis import AnalysisType, TimeSpan
-    from mudline.language.keywords.library.summary import SummaryTime
-    from mudline.language.keywords.library.vessel_motions import Drift
-    from mudline.language.keywords.library.vessels import IntegratedVessels, Vessels
+from mudline.model.scene.deck_values import DEFAULT_GRAVITY, number
 
 VES002 = Code("VES002", "vessel-without-rao", Severity.WARNING)
 TIM005 = Code("TIM005", "static-steps-without-effect", Severity.INFO)
 TIM001 = Code("TIM001", "end-not-after-start", Severity.ERROR)
 TIM002 = Code("TIM002", "step-limits-out-of-order", Severity.ERROR)
-WAV001 = Code("WAV001", "airy-period-without-amplitude", Severity.ERROR)
-VES001 = Code("VES001", "two-kinds-of-drift", Severity.ERROR)
+TIM003 = Code("TIM003", "ramp-does-not-fit", Severity.WARNING)
+TIM004 = Code("TIM004", "step-too-long-for-waves", Severity.WARNING)
 TIM006 = Code("TIM006", "storage-given-twice", Severity.ERROR)
 TIM007 = Code("TIM007", "stored-after-the-end", Severity.WARNING)
-REF021 = Code("REF021", "misspelt-output", Severity.WARNING)
+WAV001 = Code("WAV001", "airy-period-without-amplitude", Severity.ERROR)
+WAV002 = Code("WAV002", "breaking-wave", Severity.WARNING)
+CUR001 = Code("CUR001", "current-ends-below-surface", Severity.WARNING)
+VES001 = Code("VES001", "two-kinds-of-drift", Severity.ERROR)
 
-
-_DYNAMIC = ("DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")
-_FREQUENCY = "FREQUENCY"
+STEEPEST = 0.142
+"""Height over length of the steepest regular wave in deep water (Michell 1893)."""
+STEPS = 20
+"""Number of time steps in a wave period, at least."""
+_ROUNDED = 1e-3
+"""Share of the water depth by which a profile may miss the surface."""
 
 
 def _analysis(context: LintContext) -> set[str]:
     """Return the kinds of run that the deck names."""
-    blocks = context.blocks("ANALYSIS TYPE", "LOAD CASE")
-    return {str(cast("AnalysisType", block).type_).upper() for _, block in blocks if block.type_}
+    return {str(block.type_).upper() for _, block in context.blocks("ANALYSIS TYPE", "LOAD CASE") if block.type_}
 
 
 @rule(VES002)
@@ -75,22 +74,20 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
     Finds: 3:9
     """
     waves = any("WAVE" in keyword for _, keyword in in_water(context.deck))
-    if not waves or not _analysis(context) & {*_DYNAMIC}:
+    if not waves or _analysis(context).isdisjoint(("DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")):
         return
     moving = context.scene.deck.blocks_with("moves_vessels", "LOAD CASE")
     moved = {name_key(name) for _, block in moving for _, name in names_given(block, Names.VESSEL)}
     for keyword in catalogue.definers(Names.VESSEL):
-        for where, block in context.blocks(keyword):
-            for index, vessel in enumerate(cast("Vessels | IntegratedVessels", block).vessels):
-                place = where.inside("vessels", index)
-                name = str(getattr(vessel, "vessel", None) or "")
-                still = name and name_key(name) not in moved and not getattr(vessel, "rao", None)
-                if still and not getattr(vessel, "unread", None):
-                    message = (
-                        f"vessel {shown(name)} has no RAO and stands still in the waves: give RAO= in "
-                        "*VESSEL,INTEGRATED, or the operators in *RAO"
-                    )
-                    yield Problem(VES002, message, where=place.inside("vessel"))
+        for where, vessel in records_of(context.blocks(keyword), "vessels"):
+            name = str(getattr(vessel, "vessel", None) or "")
+            still = name and name_key(name) not in moved and not getattr(vessel, "rao", None)
+            if still and not getattr(vessel, "unread", None):
+                message = (
+                    f"vessel {shown(name)} has no RAO and stands still in the waves: give RAO= in *VESSEL,INTEGRATED, "
+                    "or the operators in *RAO"
+                )
+                yield Problem(VES002, message, where=where.inside("vessel"))
 
 
 @rule(TIM005)
@@ -111,7 +108,7 @@ def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
     Finds: 4:1
     """
     kinds = _analysis(context)
-    if not kinds or any(kind.startswith(_FREQUENCY) for kind in kinds):
+    if not kinds or any(kind.startswith("FREQUENCY") for kind in kinds):
         return
     for where, _ in context.written("NON LINEAR STATIC", "LOAD CASE"):
         message = f"no effect: the run is {min(kinds).lower()}, not in the frequency domain; remove *NON LINEAR STATIC"
@@ -119,8 +116,6 @@ def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
 
 
 # ---------------------------------------------------------------------------------------------------------------- times
-
-_LAST_STORED = -1.0
 
 
 @rule(TIM001)
@@ -140,9 +135,8 @@ def end_not_after_start(context: LintContext) -> Iterator[Problem]:
     for where, span in spans(context):
         yield from _backwards(span, where)
     for where, block in context.blocks("TIME", "SUMMARY POSTPROCESSING"):
-        summary = cast("SummaryTime", block)
-        if summary.start != _LAST_STORED:
-            yield from _backwards(summary, where)
+        if block.start != -1.0:  # the last stored time
+            yield from _backwards(block, where)
 
 
 def _backwards(span: object, where: Where) -> Iterator[Problem]:
@@ -172,8 +166,7 @@ def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
     """
     for where, block in context.blocks("TIME", "LOAD CASE"):
         before = -float("inf")
-        for index, limits in enumerate(cast("TimeSpan", block).limits or ()):
-            place = where.inside("limits", index)
+        for place, limits in records_of([(where, block)], "limits"):
             suggested, least, largest = (number(limits, name) for name in ("suggested", "least", "largest"))
             if not math.isnan(suggested + least + largest) and not least <= suggested <= largest:
                 message = (
@@ -186,6 +179,73 @@ def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
                 message = f"this line holds from {since!r} on, the one above it from {before!r}: sort them"
                 yield Problem(TIM002, message, where=place.inside("since"))
             before = before if math.isnan(since) else since
+
+
+@rule(TIM003)
+def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
+    """The ramp of loads is shorter than a wave period, or longer than the run.
+
+    The ramp lets a run begin without a jolt. If it is shorter than the longest wave period, the first wave comes at
+    once, and the motions that it excites spoil the start of the results. With a ramp beyond the end of the run the
+    loads never reach their full size. Correct the ramp, the last value of the first line of *TIME. A ramp of 0 and runs
+    that continue another one are left out.
+
+    Example on storm:
+        - 0.0, 120.0, 0.05, 5.0
+        + 0.0, 120.0, 0.05, 24.0
+
+    Finds: 7:20
+    """
+    longest = max((wave.period for wave in context.once(waves)), default=0.0)
+    continues = bool(context.blocks("RESTART", "LOAD CASE"))
+    for where, span in spans(context):
+        ramp, start, end = (number(span, name) for name in ("ramp", "start", "end"))
+        if ramp > end - start > 0.0:
+            message = f"loads grow over {ramp:g}, longer than the run lasts ({end - start:g}): shorten the ramp"
+            yield Problem(TIM003, message, where=where.inside("ramp"))
+        elif 0.0 < ramp < longest and not continues:
+            message = f"loads grow over {ramp:g}, less than the wave period {longest:g}: give them a period at least"
+            yield Problem(TIM003, message, where=where.inside("ramp"))
+
+
+@rule(TIM004)
+def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
+    """The time step is more than a twentieth of the shortest wave period.
+
+    With such steps the wave is no longer a smooth curve: forces and motions at its crest are missed. The largest of
+    variable steps counts; periods of random seas are not checked. Shorten the step. `mudline study` measures if it
+    is short enough for the seabed too.
+
+    Example on storm:
+        - 0.0, 120.0, 1.0, 24.0
+        + 0.0, 120.0, 0.05, 24.0
+
+    Finds: 7:14
+    """
+    shortest = min((wave.period for wave in context.once(waves)), default=math.inf)
+    for where, step in _steps(context):
+        if step > shortest / STEPS:
+            message = (
+                f"a time step of {step:g} is more than a twentieth of the wave period {shortest:g}: "
+                f"give {shortest / STEPS:g} or less"
+            )
+            yield Problem(TIM004, message, where=where)
+
+
+def spans(context: LintContext) -> Iterator[tuple[Where, object]]:
+    """Yield the time spans of a load case."""
+    for where, block in context.blocks("TIME", "LOAD CASE"):
+        for name in ("fixed", "variable"):
+            if (span := getattr(block, name)) is not None:
+                yield where.inside(name), span
+
+
+def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
+    """Yield the time steps of a load case: fixed ones, and the largest of variable ones."""
+    for where, span in spans(context):
+        yield where.inside("increment"), number(span, "increment")
+    for where, limits in records_of(context.blocks("TIME", "LOAD CASE"), "limits"):
+        yield where.inside("largest"), number(limits, "largest")
 
 
 @rule(TIM006)
@@ -241,7 +301,57 @@ def stored_after_the_end(context: LintContext) -> Iterator[Problem]:
             yield Problem(TIM007, message, where=where.inside("start"))
 
 
-# ---------------------------------------------------------------------------------------------------- waves and vessels
+# ----------------------------------------------------------------------------------------- waves, currents and vessels
+
+
+class _Wave(NamedTuple):
+    """Wave of one period: its height, and the place of the height."""
+
+    height: float
+    period: float
+    at_height: Where
+
+
+def waves(context: LintContext) -> list[_Wave]:
+    """Return the regular waves of a load case whose height and period are known."""
+    found = []
+    for where, entry in records_of(context.blocks("WAVE-REGULAR", "LOAD CASE"), "waves"):
+        height, period = 2.0 * number(entry.wave, "amplitude"), number(entry.wave, "period")
+        found.append(_Wave(height, period, where.inside("wave", "amplitude")))
+    for where, wave in by_height(context):
+        found.append(_Wave(number(wave, "height"), number(wave, "period"), where.inside("height")))
+    return [wave for wave in found if wave.height > 0.0 and wave.period > 0.0]
+
+
+def by_height(context: LintContext) -> Iterator[tuple[Where, Any]]:
+    """Return the waves that have their own keyword, with a height and an equivalent Airy wave for vessels."""
+    return chain(context.blocks("WAVE-STOKES", "LOAD CASE"), context.blocks("WAVE-DEANS", "LOAD CASE"))
+
+
+@rule(WAV002)
+def breaking_wave(context: LintContext) -> Iterator[Problem]:
+    """A regular wave is steeper than a wave can be.
+
+    In deep water a wave breaks when its height is more than 0.142 of its length g T^2 / (2 pi). In shallow water it
+    breaks at a smaller height still. Height and period were exchanged, the height is given instead of the amplitude, or
+    a unit is wrong. Correct the wave.
+
+    Example on storm:
+        - 9.0, 6.0, 180.0
+        + 3.0, 9.0, 180.0
+
+    Finds: 9:2
+    """
+    given = context.scene.surroundings.gravity
+    gravity = given if given > 0.0 else DEFAULT_GRAVITY.get(context.scene.units, math.nan)
+    for wave in context.once(waves):
+        length = gravity * wave.period * wave.period / (2.0 * math.pi)
+        if wave.height > STEEPEST * length:
+            message = (
+                f"a wave {wave.height:g} high with a period of {wave.period:g} is {wave.height / length:.3g} of its "
+                f"length high, and breaks at {STEEPEST}: correct height or period"
+            )
+            yield Problem(WAV002, message, where=wave.at_height)
 
 
 @rule(WAV001)
@@ -263,6 +373,41 @@ def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
         if wave.airy_period and not wave.airy_amplitude:
             message = "the equivalent Airy wave has a period and no amplitude: give both or neither"
             yield Problem(WAV001, message, where=where.inside("airy_period"))
+
+
+# ------------------------------------------------------------------------------------------------------------- currents
+
+
+@rule(CUR001)
+def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
+    """A current profile ends below the surface of the sea.
+
+    Elevations count upward from X = 0 at the mudline, unless OPTION=DESCEND gives depths below the water line. A
+    profile that ends far below the surface was written from the surface down, or for another depth. Its missing points
+    are mostly where the current is strongest. Give a point at the surface, or OPTION=DESCEND.
+
+    Example on storm:
+          3.0, 9.0, 180.0
+        |*CURRENT
+        | TYPE=PIECEWISE LINEAR
+        | 0.0, 0.1
+        - 300.0, 0.9
+        + 420.0, 0.9
+
+    Finds: 13:2
+    """
+    depth = context.scene.surroundings.depth
+    for where, current in records_of(context.blocks("CURRENT", "LOAD CASE"), "currents"):
+        elevations = current.profile.column(0) if current.profile is not None else np.zeros(0)
+        if not depth > 0.0 or not elevations.size or np.isnan(elevations).any():
+            continue
+        descends = str(current.option).startswith("DESCEND")
+        row = int(elevations.argmin() if descends else elevations.argmax())
+        missing = float(elevations[row]) if descends else depth - float(elevations[row])
+        if missing > _ROUNDED * depth:
+            advice = "" if descends else ", or OPTION=DESCEND for depths below the water line"
+            message = f"the profile ends {missing:g} below the surface of {depth:g} deep water: give a point there"
+            yield Problem(CUR001, f"{message}{advice}", where=where.inside("profile", row))
 
 
 @rule(VES001)
@@ -288,64 +433,10 @@ def two_kinds_of_drift(context: LintContext) -> Iterator[Problem]:
     Finds: 9:20
     """
     kinds: dict[str, str] = {}
-    for where, block in context.blocks("DRIFT", "LOAD CASE"):
-        for index, drift in enumerate(cast("Drift", block).drifts):
-            if not drift.vessel or not drift.type_:
-                continue
-            kind = kinds.setdefault(name_key(drift.vessel), drift.type_)
-            if kind != drift.type_:
-                message = f"vessel {shown(drift.vessel)} has a drift of TYPE={kind} above: give it one kind"
-                yield Problem(VES001, message, where=where.inside("drifts", index, "type"))
-
-
-# ---------------------------------------------------------------------------------------------------- requested results
-
-WORDS = (
-    *("EFFECTIVE", "TENSION", "AXIAL", "FORCE", "LOCAL", "SHEAR", "BENDING", "MOMENT", "TORQUE", "CURVATURE"),
-    *("RESULTANT", "STRESS", "STRAIN", "MISES", "REACTION", "MOTION", "DISPLACEMENT", "VELOCITY", "ACCELERATION"),
-)
-"""Words in the names of outputs, from the manual's page on the database of forces; the list is not complete."""
-_REQUESTS = "POSTPROCESSING"
-_SHORTEST = 4
-"""Number of letters from which a word is compared."""
-
-
-@rule(REF021)
-def misspelt_output(context: LintContext) -> Iterator[Problem]:
-    """The name of an output variable has a word that is nearly one of the usual words.
-
-    Results are requested by name, such as EFFECTIVE TENSION. With one wrong letter the run ends without them, and hours
-    are lost. Correct the word. Other words are not reported, as not every variable is known.
-
-    Example:
-         $SUMMARY POSTPROCESSING
-         *PARA FORCE
-          DATA1=12
-          DATA2=1
-        - DATA3=EFFECTIVE TENSON
-        + DATA3=EFFECTIVE TENSION
-
-    Finds: 5:8
-    """
-    if not any(section.name.endswith(_REQUESTS) for section in context.deck.own_sections):
-        return
-    effort = Effort()
-    own = len(context.deck.own_sections)
-    used = context.scene.context.names[Names.VARIABLE].used
-    requests = [(use.where, use.name) for use in used if use.where.section < own]
-    for where, name in [*requests, *_of_kept_lines(context)]:
-        words = name.upper().replace("-", " ").split()
-        for word in words:
-            near = nearest(word, WORDS, effort) if word not in WORDS and len(word) >= _SHORTEST else ""
-            if near and word not in (f"{near}S", f"{near}ES"):
-                message = f"output {shown(name)}: {shown(word)} is no usual word (did you mean {near}?)"
-                yield Problem(REF021, f"{message}: correct it, else the run gives no such output", where=where)
-
-
-def _of_kept_lines(context: LintContext) -> Iterator[tuple[Where, str]]:
-    """Yield the texts at the start of unread postprocessing lines that begin without a setting."""
-    for where, _, line in context.scene.context.unread_lines:
-        if context.deck.sections[where.section].name.endswith(_REQUESTS):
-            first = read_line(line, Span(0, len(line))).groups[0]
-            if not first.key and first.fields[0].text[:1].isalpha():
-                yield where.inside(*first.fields[0].span), first.fields[0].text
+    for where, drift in records_of(context.blocks("DRIFT", "LOAD CASE"), "drifts"):
+        if not drift.vessel or not drift.type_:
+            continue
+        kind = kinds.setdefault(name_key(drift.vessel), drift.type_)
+        if kind != drift.type_:
+            message = f"vessel {shown(drift.vessel)} has a drift of TYPE={kind} above: give it one kind"
+            yield Problem(VES001, message, where=where.inside("type"))

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.checks.rules.curve_shape import swapped
-from mudline.checks.unit_slips import UNITLESS, DeckUnits, is_placeholder, meant_unit
+from mudline.checks.rules.curve_points import swapped
+from mudline.checks.rules.slips import UNITLESS, DeckUnits, is_placeholder, meant_unit
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.contents import names_given
@@ -168,10 +168,6 @@ def _steel_wall(of: Numbers) -> bool:
     return of.units.known and bool(meant_unit(_STEEL_DENSITY, of("density") / own, "M/L3", of.units))
 
 
-def _steel_pipe(of: Numbers) -> bool:
-    return _steel_wall(of) and not (of.units.known and of("do") > _WIDEST_PIPE)
-
-
 def _steel_modulus(of: Numbers) -> bool:
     pipe = math.isnan(of("area")) and of("do") <= _WIDEST_PIPE
     return of.units.known and pipe and _STEEL_E.low <= of("e") <= _STEEL_E.high
@@ -195,7 +191,7 @@ def _waves_in_time(of: Numbers) -> bool:
 
 CONDITIONS: Mapping[str, Callable[[Numbers], bool]] = {
     "a steel wall": _steel_wall,
-    "a steel pipe": _steel_pipe,
+    "a steel pipe": lambda of: _steel_wall(of) and not (of.units.known and of("do") > _WIDEST_PIPE),
     "the modulus of steel": _steel_modulus,
     "a thick steel pipe": _thick_pipe,
     "a metal": _metal,

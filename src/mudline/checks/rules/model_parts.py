@@ -1,46 +1,253 @@
-"""Parts of a whole model that lack something: nodes without elements, ends that hang free, elements without properties.
-
-A deck without `$LOAD CASE`, or without `$MODEL`, is a part of a job, and nothing is missing in it.
-"""
+"""Parts of a model that lack something, or have it twice: sections, nodes without elements, ends that hang free."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, cast
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.checks.context import LintContext
-from mudline.checks.rules.geometry import without_sections
+from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.seabed_position import first_of
 from mudline.language.deck.model import Opaque, raw_lines
+from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.catalogue import may_give
-from mudline.language.keywords.contents import idents_given, kinds_of
+from mudline.language.keywords.contents import idents_given, kinds_of, names_given
 from mudline.language.keywords.model import Block
+from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number
+from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask
+from mudline.model.scene.sections import Section, format_of
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.curvilinear import Cables, CurvilinearNodes
+    from mudline.model.scene.model import Scene
 
+GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
+GEO003 = Code("GEO003", "drag-diameter-assumed", Severity.INFO)
+GEO006 = Code("GEO006", "repeated-section", Severity.WARNING)
 GEO007 = Code("GEO007", "element-without-section", Severity.WARNING)
 GEO009 = Code("GEO009", "node-without-element", Severity.INFO)
 GEO010 = Code("GEO010", "end-not-held", Severity.INFO)
-GEO011 = Code("GEO011", "short-cable", Severity.WARNING)
-GEO012 = Code("GEO012", "node-beyond-cable", Severity.WARNING)
-
 GEO015 = Code("GEO015", "no-elements", Severity.INFO)
+GEO016 = Code("GEO016", "added-mass-order", Severity.INFO)
 
 _PARTS = ("MODEL", "LOAD CASE")
-_ROUNDED = 1e-6
-"""Relative rounding of a length."""
-_OF_CABLE = ("node", "cable", "distance")
+_BENDING = ("eiyy", "eizz")
+_CURVES = {
+    "eiyy_curve": ("EIYY", ("eiyy",)),
+    "eizz_curve": ("EIZZ", ("eizz",)),
+    "gj_curve": ("GJ", ("gj",)),
+    "ea_curve": ("EA", ("ea",)),
+    "ei_curve": ("EI", _BENDING),
+    "hysteresis_curve": ("EI_HYSTERESIS", _BENDING),
+    "e_curve": ("E", ("e",)),
+}
+"""Setting of each curve, and the numbers of the property line that it replaces."""
+_NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
+
+
+@rule(GEO002)
+def number_and_curve(context: LintContext) -> Iterator[Problem]:
+    """A stiffness is given twice: as a number, and by a curve.
+
+    If the line with SET= names a curve of non-linear stiffness, its number on the property line must be left empty.
+    With both it is not clear which of them a run uses. Leave the field empty, or remove the curve.
+
+    Example:
+         $MODEL
+         *GEOMETRIC SETS
+          OPTION=FLEXIBLE
+          SET=ALL, EI=Bend Stiffener
+        - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
+        + , , 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
+         *MOMENT-CURVATURE
+          CURVE=Bend Stiffener
+          0.0, 0.0
+          23.5E3, 1.0
+          40.0E3, 2.5
+
+    Finds: 5:2
+    """
+    for where, entry in records_of(context.written("GEOMETRIC SETS")):
+        if entry.mooring is not None:
+            continue  # its format has no field for a curve, and EA must be given
+        for curve, (key, numbers) in _CURVES.items():
+            if getattr(entry, curve) is None:
+                continue
+            if numbers_given := [name for name in numbers if getattr(entry.section, name, None) is not None]:
+                names = " and ".join(_NAMES[name] for name in numbers_given)
+                message = f"{names} is given as a number, and {key}= names a curve for it: remove one of them"
+                place = where.inside(format_of(entry), _NAMES[numbers_given[0]])
+                yield Problem(GEO002, message, where=place)
+
+
+@rule(GEO003)
+def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
+    """A flexible section under a force-embedment curve has no Do: the drag diameter Dd is used.
+
+    The embedment ratio is a depth divided by the external diameter, so the stiffness of the seabed depends on it. The
+    drag diameter is often larger, as it takes in marine growth, fairings or strakes. Give Do, the last field but one of
+    the property line.
+
+    Example on clay:
+         $MODEL
+        |*NODE
+        | 1, -0.05, 0.0
+        | 5, -0.05, 40.0
+        | GEN=1, 5
+        |*ELEMENT
+        | 1, 1, 2
+        | GEN=1, 4
+        |*GEOMETRIC SETS
+        | OPTION=FLEXIBLE
+        | SET=ALL
+        - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429
+        + 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429, 0.3429
+
+    Finds: 12:53
+    """
+    scene = context.scene
+    table = scene.section_table
+    if all(section.source != "Dd" for section in table.sections):
+        return
+    on_curve = table.of_element[(scene.law == LawKind.CURVE) & (table.of_element >= 0)]
+    for index, count in zip(*(part.tolist() for part in np.unique(on_curve, return_counts=True)), strict=True):
+        section = table.sections[index]
+        if section.source == "Dd" and not np.isnan(section.diameter) and not section.faulty:
+            elements = "an element" if count == 1 else f"{count} elements"
+            message = (
+                f"the embedment ratio of {elements} on a curve is computed with Dd = {section.diameter:g}, as the "
+                "section has no Do: give Do"
+            )
+            yield Problem(GEO003, message, where=section.where.inside("flexible", "Dd"))
+
+
+@rule(GEO006)
+def repeated_section(context: LintContext) -> Iterator[Problem]:
+    """A set has two sections, and another set has none; or a set has none at all.
+
+    The later section of a set overrides the earlier one. That is legal. If another set lacks a section, though, it
+    suggests an entry that was copied and kept the first name: the elements of the other set have neither stiffness nor
+    mass. Correct the name in one of the two entries.
+
+    A set without a section is also reported if no set has two, unless a keyword that is passed through names it, as
+    that keyword may describe its elements. Nothing is reported if elements come from lines or from another deck, if a
+    section names a set that is not defined (REF001), if every element has a section, or if a curve lacks a diameter
+    (SBD009).
+
+    Example on sets:
+          GEN=3, 4
+        |*GEOMETRIC SETS
+        | OPTION=RIGID
+        | SET=Riser
+        | 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        - SET=Riser
+        + SET=Flowline
+        | 207.0E9, 79.6E9, 0.3239, 0.2731, 7850.0
+
+    Finds: 18:6
+    """
+    scene = context.scene
+    sections, reading = scene.section_table.sections, scene.context
+    repeated = _repeated(sections)
+    hidden = scene.section_table.open or reading.external_definers or reading.restart
+    if not sections or hidden or any(scene.set_table.find(section.name) is None for section in sections):
+        return
+    lacking = scene.section_table.of_element < 0
+    if not np.count_nonzero(lacking):
+        return
+    needing = lacking & ~without_sections(scene)
+    sets = scene.set_table.named.values() if needing.any() else ()
+    bare_sets = [s for s in sets if not s.open and lacking[s.elements].all() and needing[s.elements].any()]
+    for section in repeated if bare_sets else ():
+        message = (
+            f"SET={shown(section.name)} already has a section, and SET={shown(bare_sets[0].name)} has none: correct "
+            "one of the two names"
+        )
+        yield Problem(GEO006, message, where=section.where.inside("set"))
+    for bare in () if repeated else bare_sets:
+        on_curve = (scene.law[bare.elements] == LawKind.CURVE).any()  # SBD009 reports it
+        if bare.where is not None and not on_curve and folded(bare.name) not in _passed_through(scene):
+            message = f"the elements of SET={shown(bare.name)} have no section: give one in *GEOMETRIC SETS"
+            yield Problem(GEO006, message, where=bare.where)
+
+
+@rule(GEO016)
+def added_mass_order(context: LintContext) -> Iterator[Problem]:
+    """A line of `*HYDRODYNAMIC SETS` gives two different added mass coefficients, whose order is inferred.
+
+    mudline reads the normal coefficient first, as in decks of the older program (.das). The manual's page on theory
+    lists the tangential one first, and no public page shows the line itself. Nothing that mudline evaluates depends on
+    the order, but it matters if the values are copied. If the coefficients are the defaults, the normal inertia minus 1
+    and 0, leave both fields empty: then there is no doubt.
+
+    Example on sets:
+          GEN=3, 4
+        |*HYDRODYNAMIC SETS
+        | SET=ALL, TYPE=CONSTANT
+        - 1.0, 0.0, 2.0, 1.0, 0.0
+        + 1.0, 0.0, 2.0
+
+    Finds: 16:17
+    """
+    if context.deck.file.lower().endswith(".das"):
+        return
+    lines = []
+    for where, entry in records_of(context.blocks("HYDRODYNAMIC SETS")):
+        normal, tangential, inertia = (
+            number(entry.constant, name) for name in ("normal_added_mass", "tangential_added_mass", "normal_inertia")
+        )
+        if abs(normal - tangential) > 0.0:
+            lines.append((where.inside("constant", "normal_added_mass"), normal, tangential, inertia))
+    if lines:
+        where, normal, tangential, inertia = lines[0]
+        others = f"; so are those of {len(lines) - 1} more sets" * (len(lines) > 1)
+        defaults = normal == inertia - 1.0 and tangential == 0.0
+        advice = "these are the defaults, remove both" if defaults else "keep them if they are meant so"
+        message = (
+            f"the added masses are read as {normal:g} normal, {tangential:g} tangential (inferred){others}: {advice}"
+        )
+        yield Problem(GEO016, message, where=where)
+
+
+def without_sections(scene: Scene) -> Mask:
+    """Return a mask of the elements that take no section, by number or set: springs, hinges and flex joints."""
+    bare = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    for _, block in scene.deck.blocks_with("zero_length"):
+        numbers = [number for _, number in idents_given(block, Names.ELEMENT) if isinstance(number, int)]
+        bare |= np.isin(scene.element_ids, numbers)
+        for _, name in names_given(block, Names.SET):
+            if set_ := scene.set_table.find(name):
+                bare[set_.elements] = True
+    return bare
+
+
+def _passed_through(scene: Scene) -> set[str]:
+    """Return the names after SET= and the like in blocks that are passed through."""
+    blocks = (block for section in scene.deck.sections for block in section.blocks)
+    lines = (line for block in blocks if isinstance(block, Opaque) for line in block.lines)
+    return {folded(field.partition("=")[2]) for line in lines for field in line.split(",") if "=" in field}
+
+
+def _repeated(sections: Iterable[Section]) -> list[Section]:
+    """Return the sections of sets that already have a section."""
+    known: dict[str, Where] = {}
+    repeated: list[Section] = []
+    for section in sections:
+        name = name_key(section.name)
+        if known.get(name, section.where) != section.where:  # a tapered joint has a section for each element
+            repeated.append(section)
+        known[name] = section.where
+    return repeated
+
+
+# -------------------------------------------------------------------------------------------- what a whole model lacks
 
 
 def _is_whole(context: LintContext) -> bool:
@@ -225,71 +432,3 @@ def _named_nodes(context: LintContext) -> Mask:
     for line in scene.held:  # those of a GEN= among them
         named[line.nodes] = True
     return named
-
-
-# ------------------------------------------------------------------------------------------------------- cables
-
-
-@rule(GEO011)
-def short_cable(context: LintContext) -> Iterator[Problem]:
-    """A cable is shorter than the distance between the nodes at its ends.
-
-    A cable hangs between its two nodes, so it is at least as long as the straight line. Its length does not fit a
-    coordinate of its ends. Correct one of them.
-
-    Example:
-         $MODEL
-         *NODE
-          1, 0.0, 0.0
-          41, 300.0, 400.0
-         *CABLE
-        - 1, 1, 41, 450.0
-        + 1, 1, 41, 565.6
-
-    Finds: 6:12
-    """
-    scene = context.scene
-    for where, block in context.blocks("CABLE"):
-        for index, cable in enumerate(cast("Cables", block).cables):
-            ends = np.array([end for end in (cable.start, cable.end) if isinstance(end, int)], dtype=np.int64)
-            places = scene.nodes.indices(ends)
-            if len(places) < 2 or (places < 0).any():
-                continue
-            distance = float(np.linalg.norm(scene.coordinates[places[1]] - scene.coordinates[places[0]]))
-            length = number(cable, "length")
-            if length < distance * (1.0 - _ROUNDED):
-                message = f"the cable is {length:g} long and its ends lie {distance:g} apart: correct one of them"
-                yield Problem(GEO011, message, where=where.inside("cables", index, "length"))
-
-
-@rule(GEO012)
-def node_beyond_cable(context: LintContext) -> Iterator[Problem]:
-    """A node lies farther along a cable than the cable is long.
-
-    The distance of *NODE,CURVILINEAR counts from the start of the cable. Correct the distance, the number of the cable,
-    or its length.
-
-    Example:
-         $MODEL
-         *NODE
-          1, 0.0, 0.0
-          41, 300.0, 400.0
-         *CABLE
-          1, 1, 41, 565.6
-         *NODE,CURVILINEAR
-        - 2, 1, 600.0
-        + 2, 1, 14.1
-
-    Finds: 8:8
-    """
-    cables = (cable for _, block in context.blocks("CABLE") for cable in cast("Cables", block).cables)
-    lengths = {float(cable.cable): number(cable, "length") for cable in cables if isinstance(cable.cable, int)}
-    for where, block in context.blocks("NODE,CURVILINEAR"):
-        for index, entry in enumerate(cast("CurvilinearNodes", block).entries):
-            table = getattr(entry, "nodes", None)
-            rows = [] if table is None or table.values.shape[1] < len(_OF_CABLE) else table.values.tolist()
-            for row, (_, cable, distance) in enumerate(rows):
-                length = lengths.get(cable, math.nan)
-                if distance > length * (1.0 + _ROUNDED):
-                    message = f"the node lies {distance:g} along a cable {length:g} long: correct one of them"
-                    yield Problem(GEO012, message, where=where.inside("entries", index, "nodes", row, 2))

@@ -1,4 +1,4 @@
-"""Names that are defined in one place and used in another: sets, parameters, vessels, the water, data files."""
+"""Names that are defined in one place and used in another: sets, parameters, vessels, water, outputs, data files."""
 
 from __future__ import annotations
 
@@ -10,17 +10,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.outside import without_text
-from mudline.checks.context import LintContext, entries_of_sets
-from mudline.checks.rules.style import line_around
+from mudline.basics.spelling import Effort, nearest
+from mudline.checks.context import LintContext, records_of
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.language.keywords.model import FieldSpec, Part
 from mudline.language.keywords.text import shown
-from mudline.language.keywords.values import DataFile, is_unknown, known_name
+from mudline.language.keywords.values import DataFile, Names, is_unknown, known_name
 from mudline.language.rules import rule
 from mudline.language.syntax.edits import TextEdit, with_line_ends
+from mudline.language.syntax.fields import read_line
 from mudline.model.scene.data_files import fault_of, has_uneven_times, operators, unequal_frequencies
 from mudline.model.scene.deck_values import file_name, find_file
 from mudline.model.scene.references import THINGS, repeated
@@ -29,7 +30,6 @@ from mudline.model.scene.sets import ALL, LONGEST_NAME
 if TYPE_CHECKING:
     from mudline.language.keywords.library.mesh import ElementSet, SetList
     from mudline.language.keywords.library.preprocessor import Parameter
-    from mudline.language.keywords.library.vessel_motions import Raos
 
 REF011 = Code("REF011", "long-name", Severity.WARNING)
 REF012 = Code("REF012", "long-list", Severity.WARNING)
@@ -37,8 +37,8 @@ REF016 = Code("REF016", "repeated-set", Severity.WARNING)
 REF017 = Code("REF017", "repeated-parameter", Severity.WARNING)
 REF018 = Code("REF018", "missing-ocean", Severity.WARNING)
 REF020 = Code("REF020", "repeated-name", Severity.WARNING)
+REF021 = Code("REF021", "misspelt-output", Severity.WARNING)
 DAT002 = Code("DAT002", "faulty-data", Severity.ERROR)
-
 
 LONGEST_LIST = 20
 
@@ -58,7 +58,7 @@ def long_name(context: LintContext) -> Iterator[Problem]:
 
     Finds: 12:6
     """
-    for where, entry in entries_of_sets(context.blocks("ELEMENT SETS")):
+    for where, entry in records_of(context.blocks("ELEMENT SETS")):
         length = len(cast("str | None", entry.name) or "")
         if length > LONGEST_NAME:
             message = f"a set name of {length} characters: it must not be longer than {LONGEST_NAME}"
@@ -89,7 +89,7 @@ def long_list(context: LintContext) -> Iterator[Problem]:
 
     Finds: 11:73
     """
-    for where, entry in entries_of_sets(context.written("ELEMENT SETS")):
+    for where, entry in records_of(context.written("ELEMENT SETS")):
         for number, member in enumerate(entry.members):
             count = len(cast("SetList", member).elements) if member.rule == "set_list" else 0
             if count > LONGEST_LIST:
@@ -108,7 +108,7 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
     New lines are indented as the line is.
     """
     source, line = text.source.unified, text.span(where)
-    indentation = source[line_around(source, line.start).start : line.start] if line else ""
+    indentation = source[text.source.line_around(line.start).start : line.start] if line else ""
     edits: list[TextEdit] = []
     for following in range(LONGEST_LIST, count, LONGEST_LIST):
         places = [where.inside(at) for at in (following - 1, following)]
@@ -142,7 +142,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     Finds: 14:6
     """
     known: dict[str, list[tuple[int, int]]] = {}
-    for where, entry in entries_of_sets(context.written("ELEMENT SETS")):
+    for where, entry in records_of(context.written("ELEMENT SETS")):
         name = known_name(entry.name)
         if name is None or (key := folded(name)) == ALL:
             continue
@@ -199,21 +199,19 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     Finds: 4:2
     """
     known: set[str] = set()
-    for where, block in context.written("PARAMETERS", "PREPROCESSOR"):
-        for index, parameter in enumerate(cast("list[Parameter]", block.parameters)):
-            repeated: list[str] = []
-            for name in _names(parameter):
-                key = folded(name)
-                if key in known:
-                    repeated.append(name)
-                known.add(key)
-            if repeated:
-                others = f" (and {len(repeated) - 1} more of this list)" if len(repeated) > 1 else ""
-                message = (
-                    f"parameter {shown(repeated[0])}{others} is defined twice, and this value overrides the earlier "
-                    "one: remove one of them"
-                )
-                yield Problem(REF017, message, where=where.inside("parameters", index, "name"))
+    for where, parameter in records_of(context.written("PARAMETERS", "PREPROCESSOR"), "parameters"):
+        again: list[str] = []
+        for name in _names(parameter):
+            if folded(name) in known:
+                again.append(name)
+            known.add(folded(name))
+        if again:
+            others = f" (and {len(again) - 1} more of this list)" if len(again) > 1 else ""
+            message = (
+                f"parameter {shown(again[0])}{others} is defined twice, and this value overrides the earlier one: "
+                "remove one of them"
+            )
+            yield Problem(REF017, message, where=where.inside("name"))
 
 
 def _names(parameter: Parameter) -> list[str]:
@@ -269,6 +267,59 @@ def missing_ocean(context: LintContext) -> Iterator[Problem]:
             return
 
 
+# ---------------------------------------------------------------------------------------------------- requested results
+
+WORDS = (
+    *("EFFECTIVE", "TENSION", "AXIAL", "FORCE", "LOCAL", "SHEAR", "BENDING", "MOMENT", "TORQUE", "CURVATURE"),
+    *("RESULTANT", "STRESS", "STRAIN", "MISES", "REACTION", "MOTION", "DISPLACEMENT", "VELOCITY", "ACCELERATION"),
+)
+"""Words in the names of outputs, from the manual's page on the database of forces; the list is not complete."""
+_REQUESTS = "POSTPROCESSING"
+_SHORTEST = 4
+"""Number of letters from which a word is compared."""
+
+
+@rule(REF021)
+def misspelt_output(context: LintContext) -> Iterator[Problem]:
+    """The name of an output variable has a word that is nearly one of the usual words.
+
+    Results are requested by name, such as EFFECTIVE TENSION. With one wrong letter the run ends without them, and hours
+    are lost. Correct the word. Other words are not reported, as not every variable is known.
+
+    Example:
+         $SUMMARY POSTPROCESSING
+         *PARA FORCE
+          DATA1=12
+          DATA2=1
+        - DATA3=EFFECTIVE TENSON
+        + DATA3=EFFECTIVE TENSION
+
+    Finds: 5:8
+    """
+    if not any(section.name.endswith(_REQUESTS) for section in context.deck.own_sections):
+        return
+    effort = Effort()
+    own = len(context.deck.own_sections)
+    used = context.scene.context.names[Names.VARIABLE].used
+    requests = [(use.where, use.name) for use in used if use.where.section < own]
+    for where, name in [*requests, *_of_kept_lines(context)]:
+        words = name.upper().replace("-", " ").split()
+        for word in words:
+            near = nearest(word, WORDS, effort) if word not in WORDS and len(word) >= _SHORTEST else ""
+            if near and word not in (f"{near}S", f"{near}ES"):
+                message = f"output {shown(name)}: {shown(word)} is no usual word (did you mean {near}?)"
+                yield Problem(REF021, f"{message}: correct it, else the run gives no such output", where=where)
+
+
+def _of_kept_lines(context: LintContext) -> Iterator[tuple[Where, str]]:
+    """Yield the texts at the start of unread postprocessing lines that begin without a setting."""
+    for where, _, line in context.scene.context.unread_lines:
+        if context.deck.sections[where.section].name.endswith(_REQUESTS):
+            first = read_line(line, Span(0, len(line))).groups[0]
+            if not first.key and first.fields[0].text[:1].isalpha():
+                yield where.inside(*first.fields[0].span), first.fields[0].text
+
+
 # ----------------------------------------------------------------------------------------------------------- data files
 
 _OWN_FORMATS = (None, "", "MCS")
@@ -308,35 +359,27 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    for where, block in context.blocks("RAO", "LOAD CASE"):
-        for index, vessel in enumerate(cast("Raos", block).vessels):
-            lines = vessel.lines
-            columns = [lines.column(column).tolist() for column in (0, 1)] if lines is not None else []
-            rows = zip(*columns, strict=True)  # a heading and a frequency, NaN where it is not known
-            if fault := unequal_frequencies([row for row in rows if not any(map(math.isnan, row))]):
-                message = f"{fault}: correct the lines"
-                yield Problem(DAT002, message, where=where.inside("vessels", index, "lines"))
+    for where, vessel in records_of(context.blocks("RAO", "LOAD CASE"), "vessels"):
+        columns = [vessel.lines.column(column).tolist() for column in (0, 1)] if vessel.lines is not None else []
+        rows = zip(*columns, strict=True)  # a heading and a frequency, NaN where it is not known
+        if fault := unequal_frequencies([row for row in rows if not any(map(math.isnan, row))]):
+            yield Problem(DAT002, f"{fault}: correct the lines", where=where.inside("lines"))
     for named, path in context.once(_there):
         if fault := _fault(named, path):
             shown_fault = without_text(fault, path, context.deck.folder)
             yield Problem(DAT002, f"{shown(path.name)} cannot be used: {shown_fault}", where=named.where)
 
 
-class OperatorRows(NamedTuple):
-    """File of the operators of a vessel: its place in the deck, its name, and its rows in the form of LAYOUT=LINE."""
+def operator_files(context: LintContext) -> list[tuple[Where, str, list[list[float]]]]:
+    """Return the files of operators that a deck names and that can be used.
 
-    where: Where
-    name: str
-    rows: list[list[float]]
-
-
-def operator_files(context: LintContext) -> list[OperatorRows]:
-    """Return the files of operators that a deck names and that can be used."""
+    Each has its place in the deck, its name, and its rows in the form of LAYOUT=LINE.
+    """
     files = []
     for named, path in context.once(_there):
         if named.slot.about.holds is DataFile.OPERATORS and _is_own(named):
             with suppress(OSError, ValueError):  # DAT002 says why
-                files.append(OperatorRows(named.where, path.name, operators(path, _layout(named))))
+                files.append((named.where, path.name, operators(path, _layout(named))))
     return files
 
 

@@ -1,14 +1,19 @@
-"""Positions of nodes relative to the seabed."""
+"""Positions of nodes relative to the seabed and to the sea surface."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from mudline.checks.context import LintContext
+from mudline.checks.rules.curve_points import is_upside_down
 from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
+from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.given_positions import FLAT
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Mask
@@ -16,13 +21,15 @@ from mudline.model.scene.seabed import SeabedKind, SeabedShape
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
-
-_VERTICAL = 90.0
+CRV014 = Code("CRV014", "beyond-curve", Severity.INFO)
+UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)
 
 DEEPEST = 5.0
 """Depth below the seabed in diameters."""
-
-_IN_PLANE = (1, 2)
+HIGHEST, HIGHEST_IN_USER_UNITS = 3.0, 10.0
+"""Largest height of a model, in water depths."""
+TALLEST = 500.0
+"""Largest height of a model above the sea in m: no wind turbine is taller."""
 
 
 def depths(context: LintContext) -> Floats:
@@ -84,7 +91,7 @@ def _is_bed(scene: Scene) -> bool:
     floor = scene.seabed
     if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
         return False
-    return all(abs(slope) < _VERTICAL for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
+    return all(abs(slope) < 90.0 for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
 
 
 def steepness(scene: Scene) -> Floats:
@@ -225,7 +232,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if "RIGID" not in scene.laws.types or "ELASTIC" in scene.laws.types:
         return
-    held = [line for line in scene.held if line.dof in _IN_PLANE]
+    held = [line for line in scene.held if line.dof in (1, 2)]
     if not held or scene.context.restart:  # the deck that is continued may constrain the other one
         return
     constrained = np.zeros((2, len(scene.node_ids)), dtype=np.bool_)
@@ -259,3 +266,77 @@ def _on_slope(context: LintContext) -> Mask:
     near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
     sloping: Mask = (steepness(scene) > 0.0) & (context.once(depths) >= -np.maximum(_widest(scene), near))
     return sloping
+
+
+@rule(CRV014)
+def beyond_curve(context: LintContext) -> Iterator[Problem]:
+    """Elements lie deeper, in the deck's coordinates, than their curve reaches.
+
+    The force there is extrapolated with the last slope, and nothing was measured or calculated for it. Perhaps the
+    coordinates have another datum than the seabed, X = 0; otherwise add points down to the depth of the elements.
+    Nothing is reported in models whose seabed is not flat.
+
+    Example on clay:
+         $MODEL
+        |*NODE
+        - 1, -0.25, 0.0
+        - 5, -0.25, 40.0
+        + 1, -0.05, 0.0
+        + 5, -0.05, 40.0
+        | GEN=1, 5
+        |*ELEMENT
+        | 1, 1, 2
+        | GEN=1, 4
+        |*GEOMETRIC SETS
+        | OPTION=RIGID
+        | SET=ALL
+        | 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+
+    Finds: 14:2
+    """
+    scene = context.scene
+    if scene.seabed.kind is not SeabedKind.FLAT:
+        return
+    heights = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]  # -1, an unknown node, is the last one
+    with np.errstate(over="ignore"):
+        ratios = -(0.5 * heights[:, 0] + 0.5 * heights[:, 1]) / scene.diameter
+    deepest_of_all = np.fmax.reduce(ratios, initial=-np.inf)
+    if deepest_of_all > DEEPEST and not context.in_soil:
+        return  # SBD022 reports the datum
+    for index, entry in enumerate(scene.laws.curves):
+        if entry.curve is None or not entry.whole or is_upside_down(entry) or deepest_of_all <= entry.curve.ratios[-1]:
+            continue
+        elements = scene.laws.followers(index)
+        last = float(entry.curve.ratios[-1])
+        beyond = elements[ratios[elements] > last]
+        if beyond.size:
+            deepest = int(beyond[np.argmax(ratios[beyond])])
+            which = "an element lies" if beyond.size == 1 else f"{beyond.size} elements lie"
+            message = (
+                f"{which} beyond the last ratio {last!r} of curve {shown(entry.name)}, element "
+                f"{scene.element_ids[deepest]} at {ratios[deepest]:.4g}: add points down to there"
+            )
+            yield Problem(CRV014, message, where=entry.where)
+
+
+def height_over_depth(context: LintContext) -> Iterator[Problem]:
+    """Yield the problem of UNT006 in the water depth, compared with the heights of nodes.
+
+    Nothing is reported if all nodes lie above the sea, which GEO005 reports.
+    """
+    scene, oceans = context.scene, context.blocks("OCEAN")
+    if not oceans or not len(scene.node_ids):
+        return
+    where, depth = oceans[-1][0], number(oceans[-1][1], "depth")
+    metres = METRES.get(scene.units)
+    deepest, height = context.once(depths).max(), -context.once(depths).min()
+    above_sea = (height - depth) * (metres or math.inf)
+    if not 0.0 < depth < math.inf or -deepest > depth or not height < math.inf:
+        return
+    if height > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
+        highest = scene.node_ids[context.once(depths).argmin()]
+        message = (
+            f"node {highest} lies {height:.5g} high in water {depth!r} deep, expected "
+            "little more than the depth: write both in one unit (km, feet or mm?), and heights as X"
+        )
+        yield Problem(UNT006, message, where=where.inside("depth"))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
-from mudline.checks.context import LintContext
+from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.seabed_position import depths, first_of
 from mudline.language.codes.contact import GEO005, GEO017, SBD006
 from mudline.language.codes.lines import SYN014
@@ -21,9 +21,6 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
 from mudline.model.scene.rules.fields import SBD004
 from mudline.model.scene.seabed import SeabedKind, survey_of
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.pipe_in_pipe import PipSections
 
 HIGHEST = 100.0
 """Height above the seabed, in diameters, at which a level line does not hang."""
@@ -251,32 +248,25 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return  # it reports that there is no stiffness
     yield from _zeros(context)
     free = scene.law == LawKind.NONE
-    if not np.count_nonzero(free):
-        return
     if "PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords:
         free &= ~_inner_pipes(scene, free)
-    if np.count_nonzero(free):
-        yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
-        if not context.problems_of(SYN014):  # else the law may be in the part that was cut off
-            yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
+    yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
+    if not context.problems_of(SYN014):  # else the law may be in the part that was cut off
+        yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
 
 
 def _zeros(context: LintContext) -> Iterator[Problem]:
     """Yield stiffnesses of 0 of elements that lie at or below the seabed."""
     scene = context.scene
-    grants = scene.laws.set_laws
-    zero = [
-        i
-        for i, grant in enumerate(grants)
-        if grant.kind is LawKind.LINEAR and grant.stiffness == 0.0 and not grant.unknown
-    ]
-    for index in zero:
+    for index, grant in enumerate(scene.laws.set_laws):
+        if grant.kind is not LawKind.LINEAR or grant.stiffness != 0.0 or grant.unknown:
+            continue
         elements = np.flatnonzero(scene.laws.of_element == index)
         lying = elements[_depths(context, elements) >= 0.0]
         if lying.size and "SEABED CONTACT" not in scene.extensions:
             which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
             message = f"{which} at or below the seabed{_level(scene)} and this stiffness is 0: give another one"
-            yield Problem(SBD006, message, where=grants[index].where)
+            yield Problem(SBD006, message, where=grant.where)
 
 
 _SAME_PLACE = 3
@@ -299,10 +289,9 @@ def _inner_pipes(scene: Scene, free: Mask) -> Mask:
 def in_another_pipe(scene: Scene) -> Mask:
     """Return a mask (m,) of the elements of the inner pipes that `*PIP SECTION` names."""
     inside = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    for _, block in scene.deck.blocks("PIP SECTION"):
-        for pipe in cast("PipSections", block).pipes:
-            if set_ := scene.set_table.find(pipe.inner or ""):
-                inside[set_.elements] = True
+    for _, pipe in records_of(scene.deck.blocks("PIP SECTION"), "pipes"):
+        if set_ := scene.set_table.find(pipe.inner or ""):
+            inside[set_.elements] = True
     return inside
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,8 +22,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.analysis import TimeSpan
-    from mudline.model.contact.laws.suction import SuctionLaw
+    from mudline.model.scene.laws import Extension
     from mudline.model.scene.oscillation import Oscillation
 
 EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
@@ -31,10 +30,6 @@ STB001 = Code("STB001", "suction-snap", Severity.INFO)
 STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
 STB003 = Code("STB003", "stiff-jump", Severity.WARNING)
 STB004 = Code("STB004", "lateral-softening", Severity.INFO)
-
-_SMALLEST_PART, _LARGEST_PART = 0.01, 0.99
-
-_TWICE = 2.0
 
 FARTHEST = 1.0e4
 
@@ -58,11 +53,15 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
 
     Finds: 18:2
     """
+    from mudline.model.contact.laws.suction import release_stiffness  # noqa: PLC0415 - most decks do without
     from mudline.model.scene.assignments import suction_law  # noqa: PLC0415 - most decks do without
 
     for _, where, held in extension.blocks():
         elements = np.flatnonzero(held)
-        needed = _release(suction_law(scene, extension, elements))
+        law = suction_law(scene, extension, elements)
+        with np.errstate(all="ignore"):
+            usable = (law.second_corner >= 0.01) & (law.second_corner <= 0.99) & (law.regularisation > 0.0)
+            needed = np.where(usable, release_stiffness(law, law.regularisation), np.nan)
         known = np.flatnonzero(np.isfinite(needed) & (needed > 0.0))
         if known.size:
             worst = int(known[np.argmax(needed[known])])
@@ -73,15 +72,6 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
                 f"REGULARISATION= (element {scene.element_ids[elements[worst]]})"
             )
             yield Problem(STB001, message, where=where)
-
-
-def _release(law: SuctionLaw) -> Floats:
-    """Return |slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
-    from mudline.model.contact.laws.suction import release_stiffness  # noqa: PLC0415 - most decks do without
-
-    with np.errstate(all="ignore"):
-        usable = (law.second_corner >= _SMALLEST_PART) & (law.second_corner <= _LARGEST_PART)
-        return np.where(usable & (law.regularisation > 0.0), release_stiffness(law, law.regularisation), np.nan)
 
 
 @rule(STB002, off=True)
@@ -128,8 +118,8 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     stiffest = max(springs, key=lambda spring: spring.omega)
     advised = rounded_down(ADVISED_OMEGA_DT / stiffest.omega)
     for where, block in blocks:
-        step = getattr(cast("TimeSpan", block).fixed, "increment", None)
-        if isinstance(step, int | float) and stiffest.omega * step > ADVISED_OMEGA_DT:
+        step = number(block.fixed, "increment")
+        if stiffest.omega * step > ADVISED_OMEGA_DT:
             message = (
                 f"omega dt = {stiffest.omega * step:.3g} on the stiffest contact ({_described(scene, stiffest)}, "
                 f"omega = {stiffest.omega:.4g} rad/s): {_effect(stiffest.kind, stiffest.omega * step)}; give a step of "
@@ -185,7 +175,7 @@ def _effect(kind: str, product: float) -> str:
     """Return the effect of omega dt on a mass that lands, or on a spring that does not lift off, in words."""
     if kind in {"friction", "lateral"}:
         return "the spring of what sticks is not resolved"
-    fast = "up to 11 %" if product <= 1.0 else "far" if product <= _TWICE else "up to three times"
+    fast = "up to 11 %" if product <= 1.0 else "far" if product <= 2.0 else "up to three times"
     return f"with Newmark's scheme a bare mass rebounds {fast} too fast"
 
 
@@ -243,9 +233,8 @@ def _beside(context: LintContext) -> Iterator[Problem]:
     reported: set[tuple[int, int]] = set()
     if not scene.laws.curves:
         return
-    slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
     linear, curved = _neighbours(scene)
-    extremes = np.array(slopes)
+    extremes = np.array([*map(_extremes, scene.laws.curves), (math.nan, math.nan)])
     curve_of = np.array([*(grant.curve for grant in grants), -1], dtype=np.intp)
     stiffness = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element[linear]]
     with np.errstate(all="ignore"):

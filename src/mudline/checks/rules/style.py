@@ -36,15 +36,16 @@ _SMALL = re.compile(r"[a-z]")
 _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
 
 
-def rule_of_text(
-    code: Code, *, off: bool = False
-) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
+Find = Callable[[TextOrigin, str], Iterator[Problem]]
+
+
+def rule_of_text(code: Code, *, off: bool = False) -> Callable[[Find], object]:
     """Return a decorator that makes a rule of a function of a text and its unified source.
 
     Nothing is reported in a deck without a text.
     """
 
-    def register(find: Callable[[TextOrigin, str], Iterator[Problem]]) -> object:
+    def register(find: Find) -> object:
         @rule(code, off=off)
         @wraps(find)
         def check(context: LintContext) -> Iterable[Problem]:
@@ -90,12 +91,6 @@ def first_of_lines(pattern: re.Pattern[str], source: str, span: Span) -> Iterato
     while at < span.end and (match := pattern.search(source, at, span.end)):
         yield match
         at = source.find("\n", match.end(), span.end) + 1 or span.end
-
-
-def line_around(source: str, offset: int) -> Span:
-    """Return the line around an offset, without its LF; `source` is a unified text."""
-    end = source.find("\n", offset)
-    return Span(source.rfind("\n", 0, offset) + 1, len(source) if end < 0 else end)
 
 
 @rule_of_text(STY002)
@@ -203,16 +198,12 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
     """
     for head in (trimmed(source, *line) for line in head_lines(text) if _SMALL.search(source, *line)):
         written = source[slice(*head)]
-        if _known(written):
+        # The text after the name may be a remark.
+        if canonical_name(written) in (catalogue.SECTIONS if written[0] == "$" else catalogue.keywords()):
             what = "section" if written[0] == "$" else "keyword"
             repair = Repair("safe", "write it in upper case", ((head, written.translate(_UPPER)),))
             message = f"the {what} is not in upper case: write it in upper case"
             yield Problem(STY006, message, head, repair=repair)
-
-
-def _known(head: str) -> bool:
-    """Return True if a line begins with a known section or keyword; the text after the name may be a remark."""
-    return canonical_name(head) in (catalogue.SECTIONS if head[0] == "$" else catalogue.keywords())
 
 
 def head_lines(text: TextOrigin) -> Iterator[Span]:
@@ -245,7 +236,6 @@ def unused_suppression(context: LintContext) -> Iterator[Problem]:
 
 # --------------------------------------------------------------------------------------- separators, blanks and numbers
 
-_TAB_WIDTH = 8
 _TABS = re.compile(r"\t\t*")  # a pattern that begins with a letter is sought many times as fast
 _NUMERALS = r"[-+.0-9][-+.0-9eEdD]*+"
 _ROW = rf"{_NUMERALS}[ \t]++{_NUMERALS}[-+.0-9eEdD \t\r]*+(?![^\n])"
@@ -274,7 +264,7 @@ def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
     """
     for read, leaves in data_blocks(text):
         for match in (match for leaf in leaves for match in first_of_lines(_TABS, source, leaf.span)):
-            repair = _spread(source, line_around(source, match.start()), read)
+            repair = _spread(source, text.source.line_around(match.start()), read)
             yield Problem(STY001, "a TAB in a data line: write spaces", Span(*match.span()), repair=repair)
 
 
@@ -287,7 +277,7 @@ def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
     inked = len(body.rstrip(" \t"))
     first, last = body.index("\t"), body.rindex("\t") + 1
     start, end = min(first, inked), last if last <= inked else len(body)
-    new = body[: min(last, inked)].expandtabs(_TAB_WIDTH)[start:]
+    new = body[: min(last, inked)].expandtabs(8)[start:]
     message = "replace it by spaces" if new else "remove it"
     return Repair("safe", message, ((Span(line.start + start, line.start + end), new),))
 
@@ -382,7 +372,7 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
         paths = {span: path for path, span in read.places.spans.items()}
         matches = ((leaf, match) for leaf in leaves for match in first_of_lines(_SEEN, source, leaf.span))
         for leaf, match in matches:
-            line = line_around(source, match.start())
+            line = text.source.line_around(match.start())
             if leaf.span.start in tables or line.start in tables:
                 fields = row_fields(source, line, MOST_COLUMNS)
                 numbers = [field.span for field in fields if _NUMBER.fullmatch(field.text)]
@@ -391,13 +381,8 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
                 values = ((span, read.model.at(paths[span])[1]) for span in spans if span in paths)
                 numbers = [span for span, value in values if isinstance(value, int | float)]
             if numbers:
-                yield _problem(source, numbers)
-
-
-def _problem(source: str, numbers: list[Span]) -> Problem:
-    """Return one problem for the numbers of a line, at the first of them."""
-    new = [source[slice(*span)].translate(_TO_E) for span in numbers]
-    more = f" (and {len(numbers) - 1} more on this line)" if len(numbers) > 1 else ""
-    message = f"the exponent D is Fortran's: write {new[0]}{more}"
-    repair = Repair("safe", "write E", tuple(zip(numbers, new, strict=True)))
-    return Problem(STY003, message, numbers[0], repair=repair)
+                new = [source[slice(*span)].translate(_TO_E) for span in numbers]
+                more = f" (and {len(numbers) - 1} more on this line)" if len(numbers) > 1 else ""
+                message = f"the exponent D is Fortran's: write {new[0]}{more}"
+                repair = Repair("safe", "write E", tuple(zip(numbers, new, strict=True)))
+                yield Problem(STY003, message, numbers[0], repair=repair)

@@ -14,29 +14,33 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.checks.rules.coordinates import UNT006, height_over_depth
 from mudline.checks.rules.measures import OF_DEPTH, OF_POINTS, WEIGHED, Numbers
 from mudline.checks.rules.references import operator_files
-from mudline.checks.unit_slips import DeckUnits, lacks_point, likely_slips, units_of
+from mudline.checks.rules.seabed_position import UNT006, height_over_depth
+from mudline.checks.rules.slips import (
+    CODES,
+    UNT001,
+    UNT002,
+    UNT003,
+    UNT004,
+    UNT005,
+    UNT007,
+    UNT008,
+    DeckUnits,
+    lacks_point,
+    likely_slips,
+    units_of,
+)
 from mudline.language.codes.fields import SYN015
-from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.diagnostics import Code, Problem, Where
 from mudline.language.keywords.contents import in_words
 from mudline.language.keywords.model import FieldSpec, Part, Path, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.usual import BENT, Usual
 from mudline.language.keywords.values import Kind
+from mudline.language.rules import rule
 from mudline.model.scene.deck_values import number
-
-UNT001 = Code("UNT001", "gravity-mismatch", Severity.WARNING)
-UNT002 = Code("UNT002", "suspicious-magnitude", Severity.WARNING)
-UNT003 = Code("UNT003", "large-friction", Severity.WARNING)
-UNT004 = Code("UNT004", "suspicious-density", Severity.WARNING)
-UNT005 = Code("UNT005", "suspicious-modulus", Severity.WARNING)
-UNT007 = Code("UNT007", "unusual-value", Severity.WARNING)
-UNT008 = Code("UNT008", "remarkable-value", Severity.INFO)
-
-CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, UNT006, UNT007)}
 
 
 def of_code(context: LintContext, code: Code) -> list[Problem]:
@@ -75,16 +79,16 @@ def _of_deck(deck: Numbers) -> list[Judged]:
 
 def _in_files(deck: Numbers) -> Iterator[Judged]:
     """Yield unusual values in the files of operators that a deck names, one finding for each file."""
-    for file in deck.context.once(operator_files):
+    for where, name, rows in deck.context.once(operator_files):
         from mudline.language.keywords.library.vessel_motions import VesselRao  # noqa: PLC0415 - few decks have one
 
         columns = record_schema(VesselRao).slots
         lines = next(slot for slot in columns if slot.name == "lines")
-        of = replace(deck, where=file.where, columns=columns)
-        for judged in _in_table(of, lines, Table(np.array(file.rows).reshape(len(file.rows), -1))):
-            heading, frequency = file.rows[cast("int", cast("Where", judged.problem.where).path[-2])][:2]
-            message = f"{file.name}, heading {heading:g}, frequency {frequency:g}: {judged.problem.message}"
-            yield judged._replace(problem=replace(judged.problem, message=message, where=file.where))
+        of = replace(deck, where=where, columns=columns)
+        for judged in _in_table(of, lines, Table(np.array(rows).reshape(len(rows), -1))):
+            heading, frequency = rows[cast("int", cast("Where", judged.problem.where).path[-2])][:2]
+            message = f"{name}, heading {heading:g}, frequency {frequency:g}: {judged.problem.message}"
+            yield judged._replace(problem=replace(judged.problem, message=message, where=where))
 
 
 # ------------------------------------------------------------------------------------------------------- what is judged
@@ -223,12 +227,8 @@ def _name(part: Part) -> str:
     return next((f" {shown(name)}" for name in named if isinstance(name, str)), "")
 
 
-_Advice = tuple[str, Sequence[FieldSpec]]
-"""Advice on a value in words, and the fields of its row that it explains."""
-
-
-def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> _Advice:
-    """Return the advice on a value: the unit, the exchange or the comma that explains it."""
+def _advice(of: Numbers, slot: FieldSpec, usual: Usual, value: float, where: Where) -> tuple[str, Sequence[FieldSpec]]:
+    """Return the unit, the exchange or the comma that explains a value, in words, and the fields that it explains."""
     if of.table is not None:
         return _advice_on_curve(of, slot, usual), ()
     if usual.of.startswith("m "):  # a distance in space, of which the number is a part
@@ -263,7 +263,7 @@ def _advice_on_curve(of: Numbers, slot: FieldSpec, usual: Usual) -> str:
     return f"write {ordinate.label} in{of.units.behind(ordinate.about.unit)}" + (f" ({words}?)" if words else "")
 
 
-def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> _Advice | None:
+def _exchange(of: Numbers, slot: FieldSpec, where: Where) -> tuple[str, Sequence[FieldSpec]] | None:
     """Return the advice to exchange a value with its neighbour, or to remove a comma of thousands, if either fits."""
     row = [(first, number(of.part, first.name)) for first in of.columns if not first.key and not first.row]
     row = [(first, value) for first, value in row if not math.isnan(value)]
@@ -288,3 +288,152 @@ def _all_usual(of: Numbers, fields: Sequence[FieldSpec], values: Sequence[float]
     row = [*zip(fields, values, strict=True)]
     changed = replace(of, changed={slot.name: value * of.units.size(slot.about.unit) for slot, value in row})
     return not any(slot.about.fault(value) or changed.outside(slot, value) for slot, value in row if slot in asked)
+
+
+# --------------------------------------------------------------------------------------------------------------- rules
+
+
+@rule(UNT001)
+def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
+    """The gravity of *OCEAN does not fit the unit system of the file.
+
+    The suffix gives the units of a deck: .keyxm is in metres and newtons, gravity 9.81; .keyxi in feet and pounds,
+    gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it
+    was converted. Correct the gravity, or give the file its suffix. A difference above 2 % is reported.
+
+    Example on ocean:
+        - 500.0, 1025.0, 32.2
+        + 500.0, 1025.0, 9.81
+
+    Finds: 3:17
+    """
+    yield from of_code(context, UNT001)
+
+
+@rule(UNT002)
+def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
+    """A force or stiffness of the seabed seems to be in another unit.
+
+    Too small are:
+
+    * a seabed stiffness below 478 N/m for each metre (10 lbf/ft for each foot), which supports no pipe;
+    * lateral springs and suction below 95 N/m for each metre (2 lbf/ft for each foot), which hold no pipe;
+    * a cohesion below 95 Pa (2 lbf/ft2), which is that of a fluid;
+    * a curve whose largest force is below a tenth of the submerged weight of its pipe, which then lies deeper than the
+      curve reaches. If the weight is not known, the limit is 10 N/m, and less for cables thinner than 0.1 m.
+
+    Any stiffness above 2.1E11 N/m2 is stiffer than steel. Such values are usually written in kilonewtons or kips. Write
+    them in newtons or pounds. Zero is accepted.
+
+    Example on seabed:
+        - STIFFNESS=50.0
+        + STIFFNESS=50000.0
+
+    Finds: 5:12
+    """
+    yield from of_code(context, UNT002)
+
+
+@rule(UNT003)
+def large_friction(context: LintContext) -> Iterator[Problem]:
+    """A friction coefficient is above 2.
+
+    Pipes on soil have coefficients of 0.2 to 1, seldom a little more. Above 2 the field usually holds a stiffness or a
+    mobilisation length: FRICTION= has another field order than *ELASTIC SURFACE, which begins with the stiffness.
+    Correct the field.
+
+    Example on seabed:
+          STIFFNESS=50000.0
+        - FRICTION=50000.0, 0.3, 0.6
+        + FRICTION=0.3, 0.6
+
+    Finds: 6:11
+    """
+    yield from of_code(context, UNT003)
+
+
+@rule(UNT004)
+def suspicious_density(context: LintContext) -> Iterator[Problem]:
+    """The density of the water or of a pipe wall seems to be in another unit.
+
+    Densities are in kg/m3 in metric decks and in slug/ft3 in imperial decks.
+
+    * Water has 900 to 2500 kg/m3, heavy brines included; 0 and the density of air are accepted. 1.025 is t/m3, and 64
+      is lb/ft3. If the density looks like a depth, and the depth like a density, the two were exchanged.
+    * A wall has 10 to 40 000 kg/m3, as foam is light, and the steel of a riser joint may carry the mass of all that is
+      around it. 0 and powers of ten are accepted as placeholders. In a section with its own area a larger density is
+      reported only if it is steel in another unit.
+    * A pipe up to 2.5 m wide with the modulus of steel and without its own area has at least 7000 kg/m3.
+    * In user units that *OCEAN does not reveal only the ratio is checked: steel is 7 to 8.4 times as heavy as water,
+      and not 1000 times more or less than that.
+
+    Example on ocean:
+        - 500.0, 1.025, 9.81
+        + 500.0, 1025.0, 9.81
+
+    Finds: 3:9
+    """
+    yield from of_code(context, UNT004)
+
+
+@rule(UNT005)
+def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
+    """Young's modulus or the shear modulus seems to be in another unit, or the two do not fit each other.
+
+    Moduli are in N/m2 in metric decks and in lbf/ft2 in imperial decks.
+
+    * Less than 1E5 N/m2 is softer than any rubber (207 is GPa, 207000 is MPa). 0 and powers of ten are accepted as
+      placeholders.
+    * A steel wall (7000 kg/m3 or more) is also reported if its modulus is that of steel in kPa, psi, ksi or the unit of
+      the other system.
+    * E and G of a material give Poisson's ratio, E/2G - 1, from 0 to 0.5, in any units. A negative ratio, which
+      exchanged moduli give, is reported. A ratio above 0.5 is reported for metals (2600 kg/m3 and 60 GPa or more).
+      Composites may have any ratio.
+
+    A section gets one finding at most. FLEXIBLE, MOORING and TRUSS sections have no modulus and get none.
+
+    Example on pipe:
+        - 207.0, 79.6, 0.3239, 0.2889, 7850.0
+        + 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+
+    Finds: 12:2
+    """
+    yield from of_code(context, UNT005)
+
+
+@rule(UNT007)
+def unusual_value(context: LintContext) -> Iterator[Problem]:
+    """A value is far outside the usual range of its field.
+
+    The keyword's page gives the usual range of every field with its reason: a source, or mechanics. A wave of 106 m, a
+    period of 1.4 s, a direction of 1800 degrees or a current of 13 m/s runs without a warning, and its results look
+    plausible. The value is mostly in another unit or column, or has lost its decimal point: the message proposes an
+    explanation. Correct the value. Values are compared in SI. In user units they are compared if *OCEAN reveals the
+    units, or if they have no dimension.
+
+    Example on storm:
+        - 3.0, 9.0, 1800.0
+        + 3.0, 9.0, 180.0
+
+    Finds: 9:12
+    """
+    yield from of_code(context, UNT007)
+
+
+@rule(UNT008)
+def remarkable_value(context: LintContext) -> Iterator[Problem]:
+    """A value is unusually large or small, but not impossible.
+
+    Neither mechanics nor a source says that it is wrong, and it may well be intended. Most decks have other values in
+    this field, as its keyword's page says. Check its unit and its decimal point once, or leave it.
+
+    Example on storm:
+          3.0, 9.0, 180.0
+        |*CURRENT
+        | TYPE=UNIFORM
+        - 3.5, 0.0
+        + 1.5, 0.0
+
+    Finds: 12:2
+    """
+    yield from of_code(context, UNT008)

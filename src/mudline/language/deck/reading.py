@@ -120,11 +120,13 @@ class TextOrigin(Origin):
             return Span(line.start + int(piece[0]), line.start + int(piece[1]))
         return trimmed(self.source.unified, *line)
 
+    def span_of(self, problem: Problem) -> Span | None:
+        """Return the span of a problem; None if it has no place in the text."""
+        return problem.span or (self.span(problem.where) if problem.where else None)
+
     def place(self, problem: Problem) -> Range:
         """Return lines and columns of a problem."""
-        span = problem.span
-        if span is None and problem.where is not None:
-            span = self.span(problem.where)
+        span = self.span_of(problem)
         if span is None:
             return START
         return Range(*self.source.position(span.start), *self.source.position(max(span.start, span.end)))

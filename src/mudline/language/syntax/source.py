@@ -117,6 +117,10 @@ class Source:
             end -= 1
         return Span(start, end)
 
+    def line_around(self, offset: int) -> Span:
+        """Return the span of the line around an offset without its end."""
+        return self.line_span(self.position(offset)[0])
+
     def line(self, number: int) -> str:
         """Return the text of a line (from 1) without its end."""
         return self.text[slice(*self.line_span(number))]

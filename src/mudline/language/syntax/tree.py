@@ -53,6 +53,11 @@ class RawBlock:
 
     __repr__ = short_repr
 
+    @property
+    def span(self) -> Span:
+        """Span from its `*KEYWORD` line to the end of its last line."""
+        return Span(self.head.span.start, (self.leaves or [self.head])[-1].span.end)
+
 
 @dataclass(slots=True)
 class RawSection:

@@ -1,16 +1,19 @@
-"""Friction, lateral resistance and suction of the seabed."""
+"""Friction, lateral resistance and suction of the seabed, and the resistance of soil springs."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from mudline.checks.context import LintContext
+from mudline.checks.context import LintContext, records_of
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.keywords.table import Table
 from mudline.language.rules import rule
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.laws import DIRECTIONS, typed_blocks
 from mudline.model.scene.sets import ALL
 
@@ -21,12 +24,9 @@ SBD015 = Code("SBD015", "extent-without-stiffness", Severity.WARNING)
 SBD019 = Code("SBD019", "short-mobilisation", Severity.WARNING)
 SBD020 = Code("SBD020", "unused-characteristic-length", Severity.INFO)
 SBD024 = Code("SBD024", "one-friction-coefficient", Severity.WARNING)
+CRV015 = Code("CRV015", "repeated-depth", Severity.WARNING)
+CRV016 = Code("CRV016", "soil-gains-again", Severity.INFO)
 
-_CHARACTERISTIC = (3.048, 10.0)
-
-_SHORTEST = 1e-4
-
-_UNKNOWN = float("nan")
 _OF_SET = {
     "lateral": ("lateral",),
     "suction_stiffness": ("suction", "stiffness"),
@@ -50,7 +50,7 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:10
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         friction = entry.value("transverse")
         both = entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction)
         if both and not friction_replaced(context, entry):
@@ -73,9 +73,9 @@ def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:21
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         length = entry.value("longitudinal_mobilisation")
-        if not entry.legacy and length in _CHARACTERISTIC:
+        if not entry.legacy and length in (3.048, 10.0):
             message = (
                 f"{length!r} is a usual characteristic length of legacy surfaces, and the third field of FRICTION= is "
                 "the mobilisation length (inferred from the value): give that, or remove it"
@@ -98,7 +98,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:27
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         for direction in DIRECTIONS:
             name = f"{direction}_stiffness"
             idle = positive(entry.value(name)) and absent(entry, direction)
@@ -114,7 +114,7 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
     blocks = [placed for section in ("LOAD CASE", "MODES") for placed in context.blocks("FRICTION", section)]
     if not blocks or scene.context.restart or "SEABED FRICTION" in context.keywords:
         return
-    entries = given(context)
+    entries = context.once(given)
     for direction in DIRECTIONS if entries else ():
         if not all(absent(entry, direction) for entry in entries):
             continue
@@ -142,7 +142,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:15
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         if positive(entry.value("suction_extent")) and absent(entry, "suction_stiffness"):
             message = "a suction zone without suction stiffness has no effect: give the stiffness, or remove the extent"
             yield Problem(SBD015, message, where=entry.place("suction_extent"))
@@ -167,7 +167,7 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:27
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         for direction in DIRECTIONS if entry.legacy else ():
             name = f"{direction}_length"
             both = positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation"))
@@ -192,7 +192,7 @@ def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    for entry in context.once(resisting):
+    for entry in context.once(given):
         longitudinal = entry.value("longitudinal")
         single = positive(longitudinal) and entry.value("transverse") is None and absent(entry, "transverse")
         sprung = entry.type_ != "RIGID" and positive(entry.value("lateral"))
@@ -221,7 +221,8 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     Finds: 17:21
     """
     scene = context.scene
-    if not context.once(resisting) or not (resistance := scene.resistance).has_mobilisation:
+    resistance = scene.resistance
+    if not resistance.has_mobilisation:
         return
     lengths, friction = resistance.column("mobilisation"), resistance.column("friction")
     friction[resistance.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it
@@ -229,7 +230,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
         friction[replacing.of_element >= 0] = 0.0
     for side, name in enumerate(("longitudinal_mobilisation", "transverse_mobilisation")):
         length = lengths[:, side]
-        short = (length > 0.0) & (friction[:, side] > 0.0) & (length < _SHORTEST * scene.diameter)
+        short = (length > 0.0) & (friction[:, side] > 0.0) & (length < 1e-4 * scene.diameter)
         for index in sorted(set(resistance.of_element[short].tolist())):
             where = resistance.places[index]
             path = (name,) if where.path[0] == "properties" else ("friction", name)
@@ -257,7 +258,7 @@ class FrictionEntry(NamedTuple):
             number = getattr(number, step, None)
         if number is None:
             return None
-        return float(cast("float", number)) if isinstance(number, float | int) else _UNKNOWN
+        return float(cast("float", number)) if isinstance(number, float | int) else math.nan
 
     def _path(self, name: str) -> tuple[str, ...]:
         return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
@@ -275,21 +276,8 @@ def given(context: LintContext) -> list[FrictionEntry]:
         for where, surface in context.scene.context.surfaces
     ]
     for where, properties, type_ in typed_blocks(context.scene.context):
-        for index, entry in enumerate(properties.sets):
-            entries.append(FrictionEntry(entry, where.inside("sets", index), type_, legacy=False))
+        entries += [FrictionEntry(entry, at, type_, legacy=False) for at, entry in records_of([(where, properties)])]
     return entries
-
-
-def resisting(context: LintContext) -> list[FrictionEntry]:
-    """Return the surfaces and sets that give more than a stiffness, which the rules about friction need."""
-    return [
-        entry
-        for entry in given(context)
-        if entry.legacy
-        or entry.part.friction is not None
-        or entry.part.lateral is not None
-        or entry.part.suction is not None
-    ]
 
 
 def positive(value: float | None) -> bool:
@@ -321,3 +309,94 @@ def friction_replaced(context: LintContext, entry: FrictionEntry) -> bool:
     if followers.size:
         return bool((friction.of_element[followers] >= 0).all())
     return not entry.legacy and folded(str(entry.part.set_name)) in names
+
+
+# --------------------------------------------------------------------------------------------------------- soil springs
+
+
+@rule(CRV015)
+def repeated_depth(context: LintContext) -> Iterator[Problem]:
+    """A soil spring has two curves at one depth, or a depth above the one before it.
+
+    The resistance is interpolated between the given depths: at a depth that is given twice it jumps, or one of its
+    curves is not used at all. Mostly the second curve was copied and kept the depth of the first. Depths that do
+    not ascend are an info, as nothing says that they must. Correct the depth.
+
+    Example on pipe:
+          STIFFNESS=50000.0
+        |*P-Y
+        | SET=ALL
+        | DEPTH=0.0
+        | 0.0, 0.0
+        | 2000.0, 0.05
+        - DEPTH=0.0
+        + DEPTH=5.0
+        | 0.0, 0.0
+        | 20000.0, 0.05
+
+    Finds: 22:8
+    """
+    for place, curves in _springs(context):
+        before: list[float] = []
+        for at, curve in enumerate(curves):
+            depth = number(curve, "depth", math.inf)  # one that is not known is deeper than all others
+            where = place.inside(at, "depth")
+            if depth in before and depth < math.inf:
+                yield Problem(CRV015, f"there is already a curve at depth {depth:g}: correct one", where=where)
+            elif before and depth < max(before):
+                message = f"depth {depth:g} follows {max(before):g}: write the curves from the mudline downwards"
+                yield Problem(CRV015, message, where=where, severity=Severity.INFO)
+            before.append(depth)
+
+
+@rule(CRV016)
+def soil_gains_again(context: LintContext) -> Iterator[Problem]:
+    """The resistance of a soil spring falls, and rises again at larger displacements.
+
+    Softening soil falls to a residual resistance and stays there; it does not regain strength at larger displacements.
+    A curve that rises again mostly has a wrong digit in one point, or two points exchanged. Correct it, or leave it if
+    it was measured so. Each side of a curve is checked by itself.
+
+    Example on pipe:
+          STIFFNESS=50000.0
+        |*P-Y
+        | SET=ALL
+        | DEPTH=5.0
+        | 0.0, 0.0
+        | 9000.0, 0.01
+        - 1500.0, 0.05
+        + 15000.0, 0.05
+        | 18000.0, 0.2
+
+    Finds: 22:2
+    """
+    for place, curves in _springs(context):
+        for at, curve in enumerate(curves):
+            if isinstance(curve.points, Table) and (lowest := _gains_again(curve.points)) is not None:
+                resistance, displacement = (float(curve.points.column(each)[lowest]) for each in (0, 1))
+                message = (
+                    f"resistance falls to {resistance:g} at {displacement:g} and rises again farther out, as no soil "
+                    "does that has softened: correct a point, or leave it if it was measured"
+                )
+                yield Problem(CRV016, message, where=place.inside(at, "points", lowest))
+
+
+def _springs(context: LintContext) -> Iterator[tuple[Where, list[Any]]]:
+    """Yield the place and the curves of each set of soil springs."""
+    for where, entry in records_of(context.scene.deck.blocks_with("soil_springs")):
+        yield where.inside("curves"), entry.curves
+
+
+def _gains_again(points: Table) -> int | None:
+    """Return the row to which resistance falls before it rises again, on either side of a curve; None without one."""
+    resistance, displacement = points.column(0), points.column(1)
+    for side in (1.0, -1.0):
+        rows = np.flatnonzero((side * displacement >= 0.0) & np.isfinite(resistance))
+        rows = rows[np.argsort(np.abs(displacement[rows]), kind="stable")]
+        steps = np.diff(np.abs(resistance[rows]))
+        falls = np.flatnonzero(steps < 0.0)
+        rises = np.flatnonzero(steps > 0.0)
+        if falls.size and rises.size and rises[-1] > falls[0]:
+            again = rises[rises > falls[0]][0]
+            return int(rows[again])
+    return None

@@ -1,4 +1,4 @@
-"""Coordinates that do not fit those of the neighbours: mistyped nodes and elements, decimal commas."""
+"""Lengths and coordinates that do not fit each other: nodes, elements, cables, decimal commas, curves over lengths."""
 
 from __future__ import annotations
 
@@ -6,24 +6,24 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
-from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.checks.context import LintContext
-from mudline.checks.rules.seabed_position import depths
+from mudline.checks.context import LintContext, records_of
+from mudline.checks.rules.curve_points import LARGEST_RATIO
+from mudline.checks.rules.seabed_position import UNT006, height_over_depth
+from mudline.checks.rules.unusual import of_code
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Severity, Where
-from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
+from mudline.language.keywords.table import Table
+from mudline.language.rules import rule
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Indices, Mask, blocks_of
+from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of, looked_up
 
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.mesh import Nodes
-    from mudline.language.keywords.table import Table
-
-UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)
+GEO011 = Code("GEO011", "short-cable", Severity.WARNING)
+GEO012 = Code("GEO012", "node-beyond-cable", Severity.WARNING)
 
 LONGEST_ELEMENT = 25.0
 """Ratio of an element's length to its longer neighbour's, at most: meshes are graded in smaller steps."""
@@ -35,27 +35,64 @@ AROUND: ratio of the distance through the skipped node to its length.
 """
 TURNED = -0.985
 """Cosine of the angle between two elements of a line that runs back over itself, to within 10 degrees."""
-HIGHEST, HIGHEST_IN_USER_UNITS = 3.0, 10.0
-"""Largest height of a model, in water depths."""
-TALLEST = 500.0
-"""Largest height of a model above the sea in m: no wind turbine is taller."""
 BETTER = 3.0
 """Ratio of distances to the neighbours, without and with the decimal comma, above which the comma is assumed."""
 COMMA_ROWS = 1000
 """Number of rows of a table in which decimal commas are looked for."""
-
 _HALVES = r"([-+]?[0-9]+),([0-9]+)"
+FEWEST_POINTS, MOST_ROUND, ROUNDING = 3, 0.5, 1e-3
+"""Limits for a curve that seems to be given over metres.
+
+FEWEST_POINTS: number of points.
+MOST_ROUND: share of its points whose ratios may be round numbers.
+ROUNDING: relative rounding of a depth.
+"""
+_ROUNDED = 1e-6
+"""Relative rounding of a length."""
+
+
+@rule(UNT006)
+def suspicious_length(context: LintContext) -> Iterator[Problem]:
+    """A length does not fit the pipe: millimetres, inches, or a wall thickness in place of a diameter.
+
+    Reported are, each with the likely unit:
+
+    * an external diameter above 60 m (a spar hull of 37 m is legal); one above 2 m with the wall of a steel pipe, at
+      least 90 mm and a 6th to a 50th of the diameter; one of a FLEXIBLE, MOORING or TRUSS section whose mass is below
+      10 % or above 30 times that of the water that it displaces (0 and powers of ten are placeholders);
+    * a drag or buoyancy diameter above 25 times the external one, 11.5 times in RIGID; an external one above 8 times
+      both;
+    * an internal diameter below a tenth of the external one in a steel pipe up to 2.5 m wide: the wall thickness;
+    * a mobilisation length above 10 diameters and above 10 ft, the usual characteristic length;
+    * a force-embedment curve with three points or more whose ratios become round numbers when divided by the diameter;
+    * an element over 25 times as long as each of the neighbours at its two ends, all of one section; a node that is
+      so far from both of its neighbours; a node at which a line turns back, as no pipe bends; an
+      element that leaves out a node at which the next one begins, and ends where the line goes on;
+    * a node row with one value more than the others, which fits its neighbours if two of them are a decimal comma;
+    * nodes over three times as high above the seabed as the water is deep, and over 500 m above the sea.
+
+    In user units whose *OCEAN does not tell them only ratios are checked: masses against displaced water, bores of
+    walls as dense as steel, mobilisation lengths above 100 diameters, curves, elements, and nodes above ten depths.
+
+    Example on pipe:
+        - 207.0E9, 79.6E9, 323.9, 288.9, 7850.0
+        + 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+
+    Finds: 12:19
+    """
+    yield from of_code(context, UNT006)
+    for kind in (curves_over_lengths, odd_coordinates, height_over_depth):
+        yield from kind(context)
 
 
 def odd_coordinates(context: LintContext) -> Iterator[Problem]:
     """Yield the problems of UNT006 in nodes and elements."""
     scene = context.scene
     least, most = np.minimum.reduce(scene.length, initial=1.0), np.maximum.reduce(scene.length, initial=0.0)
-    even = most <= LONGEST_ELEMENT * least  # not so where a length is not known
+    even = most <= LONGEST_ELEMENT * least  # not so where a length is not known; this saves much memory
     far = {} if even else dict(_far_nodes(scene))
-    return chain(
-        () if even else _elements(scene, far), _turning_back(scene, far), _skipping(scene), _decimal_commas(context)
-    )
+    odd = () if even else _elements(scene, far)
+    return chain(odd, _turning_back(scene, far), _skipping(scene), _decimal_commas(context))
 
 
 def _elements(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
@@ -215,16 +252,13 @@ def _decimal_commas(context: LintContext) -> Iterator[Problem]:
     text = context.text
     if text is None:
         return
-    for where, block in context.written("NODE"):
-        for index, entry in enumerate(cast("Nodes", block).entries):
-            if not hasattr(entry, "nodes"):
-                continue
-            split = _split_rows(text, entry.nodes, where.inside("entries", index, "nodes"))
-            if split:
-                place, names, halves = split[0]
-                message = f"decimal comma? {halves} is two fields here, {names}: write {halves.replace(',', '.')}"
-                more = f"; so in {len(split)} rows of this block" if len(split) > 1 else ""
-                yield Problem(UNT006, f"{message}{more}", where=place)
+    for where, entry in records_of(context.written("NODE"), "entries"):
+        split = _split_rows(text, entry.nodes, where.inside("nodes")) if hasattr(entry, "nodes") else []
+        if split:
+            place, names, halves = split[0]
+            message = f"decimal comma? {halves} is two fields here, {names}: write {halves.replace(',', '.')}"
+            more = f"; so in {len(split)} rows of this block" if len(split) > 1 else ""
+            yield Problem(UNT006, f"{message}{more}", where=place)
 
 
 def _split_rows(text: TextOrigin, table: Table, where: Where) -> list[tuple[Where, str, str]]:
@@ -283,24 +317,115 @@ def _fits(table: Table, row: int, column: int, number: float, beside: list[int],
     return written > times * corrected
 
 
-def height_over_depth(context: LintContext) -> Iterator[Problem]:
-    """Yield the problem of UNT006 in the water depth, compared with the heights of nodes.
+# ------------------------------------------------------------------------------------------------------- cables
 
-    Nothing is reported if all nodes lie above the sea, which GEO005 reports.
+
+@rule(GEO011)
+def short_cable(context: LintContext) -> Iterator[Problem]:
+    """A cable is shorter than the distance between the nodes at its ends.
+
+    A cable hangs between its two nodes, so it is at least as long as the straight line. Its length does not fit a
+    coordinate of its ends. Correct one of them.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          41, 300.0, 400.0
+         *CABLE
+        - 1, 1, 41, 450.0
+        + 1, 1, 41, 565.6
+
+    Finds: 6:12
     """
-    scene, oceans = context.scene, context.blocks("OCEAN")
-    if not oceans or not len(scene.node_ids):
-        return
-    where, depth = oceans[-1][0], number(oceans[-1][1], "depth")
-    metres = METRES.get(scene.units)
-    deepest, height = context.once(depths).max(), -context.once(depths).min()
-    above_sea = (height - depth) * (metres or math.inf)
-    if not 0.0 < depth < math.inf or -deepest > depth or not height < math.inf:
-        return
-    if height > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
-        highest = scene.node_ids[context.once(depths).argmin()]
+    scene = context.scene
+    for where, cable in records_of(context.blocks("CABLE"), "cables"):
+        ends = np.array([end for end in (cable.start, cable.end) if isinstance(end, int)], dtype=np.int64)
+        places = scene.nodes.indices(ends)
+        if len(places) < 2 or (places < 0).any():
+            continue
+        distance = float(np.linalg.norm(scene.coordinates[places[1]] - scene.coordinates[places[0]]))
+        length = number(cable, "length")
+        if length < distance * (1.0 - _ROUNDED):
+            message = f"the cable is {length:g} long and its ends lie {distance:g} apart: correct one of them"
+            yield Problem(GEO011, message, where=where.inside("length"))
+
+
+@rule(GEO012)
+def node_beyond_cable(context: LintContext) -> Iterator[Problem]:
+    """A node lies farther along a cable than the cable is long.
+
+    The distance of *NODE,CURVILINEAR counts from the start of the cable. Correct the distance, the number of the cable,
+    or its length.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          41, 300.0, 400.0
+         *CABLE
+          1, 1, 41, 565.6
+         *NODE,CURVILINEAR
+        - 2, 1, 600.0
+        + 2, 1, 14.1
+
+    Finds: 8:8
+    """
+    cables = (cable for _, cable in records_of(context.blocks("CABLE"), "cables") if isinstance(cable.cable, int))
+    lengths = {float(cable.cable): number(cable, "length") for cable in cables}
+    for where, entry in records_of(context.blocks("NODE,CURVILINEAR"), "entries"):
+        table = getattr(entry, "nodes", None)
+        rows = [] if table is None or table.values.shape[1] < 3 else table.values.tolist()
+        for row, (_, cable, distance) in enumerate(rows):
+            length = lengths.get(cable, math.nan)
+            if distance > length * (1.0 + _ROUNDED):
+                message = f"the node lies {distance:g} along a cable {length:g} long: correct one of them"
+                yield Problem(GEO012, message, where=where.inside("nodes", row, 2))
+
+
+# -------------------------------------------------------------------------------------------------------------- curves
+
+
+def curves_over_lengths(context: LintContext) -> Iterator[Problem]:
+    """Yield the problems of UNT006 in curves: depths instead of ratios."""
+    for curve, diameter in _in_lengths(context.scene):
         message = (
-            f"node {highest} lies {height:.5g} high in water {depth!r} deep, expected "
-            "little more than the depth: write both in one unit (km, feet or mm?), and heights as X"
+            f"every ratio of this curve is a round number of diameters of {diameter:.4g} (the last one "
+            f"{curve.points[:, 0].max() / diameter:.3g}): if these are depths, write them divided by the diameter"
         )
-        yield Problem(UNT006, message, where=where.inside("depth"))
+        yield Problem(UNT006, message, where=curve.where)
+
+
+def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
+    """Yield the curves whose ratios all become round numbers when multiplied by the diameter, with the diameter.
+
+    Most of the ratios themselves are not round numbers. All elements on the curve must have one diameter.
+    """
+    laws = scene.laws
+    ratios = {at: curve.points[curve.points[:, 0] != 0.0, 0] for at, curve in enumerate(laws.curves) if curve.usable}
+    candidates = {at: each for at, each in ratios.items() if _may_be_lengths(each)}
+    if not candidates:
+        return
+    curve_of_law = np.array([*(grant.curve for grant in laws.set_laws), -1], dtype=np.intp)
+    of_element = looked_up(curve_of_law, laws.of_element)
+    smallest, largest = np.full(len(laws.curves) + 1, np.inf), np.full(len(laws.curves) + 1, -np.inf)
+    with np.errstate(invalid="ignore"):  # an element without a diameter makes both NaN
+        np.minimum.at(smallest, of_element, scene.diameter)
+        np.maximum.at(largest, of_element, scene.diameter)
+    for index, ratios in candidates.items():
+        diameter = float(smallest[index])
+        if diameter == largest[index] and _is_round(ratios / diameter).all():
+            yield laws.curves[index], diameter
+
+
+def _may_be_lengths(ratios: Floats) -> bool:
+    """Return True if most ratios of a curve are not round numbers, and CRV010 reports none of them."""
+    usual = len(ratios) >= FEWEST_POINTS and ratios.max() <= LARGEST_RATIO
+    return usual and bool(_is_round(ratios).mean() < MOST_ROUND)
+
+
+def _is_round(values: Floats) -> Mask:
+    """Return a mask of the numbers with two significant digits, within the rounding of the deck."""
+    with np.errstate(divide="ignore", over="ignore", under="ignore", invalid="ignore"):
+        digits = np.abs(values) / 10.0 ** np.floor(np.log10(np.abs(values)))  # inf for the smallest floats
+        return np.abs(digits - digits.round(1)) <= ROUNDING * digits

@@ -1,14 +1,17 @@
-"""Names of force-embedment curves, and the places that use them."""
+"""Force-embedment curves as they are written: their names, the places that use them, repairs of their lines."""
 
 from __future__ import annotations
 
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
-from itertools import groupby
-from typing import TYPE_CHECKING, cast
+from itertools import chain, groupby
+from typing import TYPE_CHECKING, NamedTuple
 
-from mudline.checks.context import Found, Joined, LintContext, joint
+import numpy as np
+
+from mudline.basics.limits import MOST_REPORTED
+from mudline.checks.context import Found, Joined, LintContext, joint, records_of
 from mudline.checks.suppression import MARK
 from mudline.language.codes.contact import REF003, SBD006, SBD017
 from mudline.language.deck.parameters import folded
@@ -18,14 +21,14 @@ from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import first_key
-from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.rows import line_spans, read_number, row_fields
 from mudline.language.syntax.tree import Leaf, LeafKind
 from mudline.model.contact.input import LawKind
+from mudline.model.scene.curves import SceneCurve
+from mudline.model.scene.numbering import Indices
 from mudline.model.scene.references import CURVES, repeated, unused
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.preprocessor import Variation
-    from mudline.language.keywords.library.seabed_properties import SeabedProperties
     from mudline.model.scene.curves import SceneCurve
 
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
@@ -100,12 +103,9 @@ def _without_estimate(name: str) -> str:
 def _chosen_elsewhere(context: LintContext) -> bool:
     """Return True if something that is not read, or not fixed, may use curves."""
     scene = context.scene
-    own = zip(
-        _stiffnesses(context.written("SEABED PROPERTIES")),
-        _stiffnesses(context.blocks("SEABED PROPERTIES")),
-        strict=False,
-    )  # a continued deck adds more after them
-    if any(written is not value for written, value in own):
+    own, all_sets = (records_of(blocks("SEABED PROPERTIES")) for blocks in (context.written, context.blocks))
+    pairs = zip(own, all_sets, strict=False)  # a continued deck adds more after them
+    if any(written.stiffness is not evaluated.stiffness for (_, written), (_, evaluated) in pairs):
         return True  # an equation, whose parameters may be varied
     if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.set_laws):
         return True  # a set whose STIFFNESS= is not known
@@ -115,8 +115,7 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         return True
     return any(
         folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read
-        for _, block in context.blocks("VARIATION", "PREPROCESSOR")
-        for variation in cast("Variation", block).variations
+        for _, variation in records_of(context.blocks("VARIATION", "PREPROCESSOR"), "variations")
         for varied in variation.blocks
         if varied.action == "ADD"
     )
@@ -127,10 +126,6 @@ def _all_else_is_given(context: LintContext) -> bool:
     if any(law.kind is LawKind.NONE for law in context.scene.laws.set_laws):
         return False
     return not any(each.weight is Severity.ERROR for problems in context.noticed.values() for each in problems)
-
-
-def _stiffnesses(blocks: Iterable[tuple[Where, SeabedProperties]]) -> Iterator[object]:
-    return (entry.stiffness for _, block in blocks for entry in block.sets)
 
 
 @rule(REF004)
@@ -184,7 +179,9 @@ def _of_block(text: TextOrigin, block: Where, unused: list[Where]) -> dict[Where
         where: Repair("unsafe", "remove the curve", tuple((span, "") for span in lines[starts[where.path]]))
         for where in unused
     }
-    if len(unused) == len(starts) and (len(starts) == 1 or not any(_hides(leaf, source) for leaf in raw.leaves)):
+    comments = (leaf for leaf in raw.leaves if leaf.kind is LeafKind.COMMENT)
+    hides = any(MARK.match(source, *leaf.span) for leaf in comments)
+    if len(unused) == len(starts) and (len(starts) == 1 or not hides):
         spans = [raw.head.span, *(span for start in sorted(lines) for span in lines[start])]
         message = "remove the curve" if len(starts) == 1 else "remove the curves of this block"
         repairs[unused[0]] = Repair("unsafe", message, tuple((span, "") for span in spans))
@@ -199,10 +196,6 @@ def _by_curve(leaves: list[Leaf], source: str, keys: frozenset[str], starts: lis
         if at >= 0 and _counts(leaf, source, keys):
             lines[starts[at]].append(leaf.span)
     return lines
-
-
-def _hides(leaf: Leaf, source: str) -> bool:
-    return leaf.kind is LeafKind.COMMENT and MARK.match(source, *leaf.span) is not None
 
 
 def _counts(leaf: Leaf, source: str, keys: frozenset[str]) -> bool:
@@ -232,3 +225,92 @@ def curve_named_as_number(context: LintContext) -> Iterator[Problem]:
         if not curve.embedment and curve.name and read_number(curve.name) is not None:
             message = "the name of this curve reads as a number, and STIFFNESS= takes the number: choose another name"
             yield Problem(SBD017, message, where=curve.title)
+
+
+# ------------------------------------------------------------------------------------------------------ rows of points
+
+
+_NO_PLAIN_NUMBERS = frozenset('["{')
+
+
+def _exchange(text: TextOrigin, curve: SceneCurve) -> Repair | None:
+    """Return a repair that exchanges the fields of each row; None for a curve not read whole, or very long."""
+    lines = _point_lines(text, curve)
+    if not lines or not curve.whole:
+        return None
+    source = text.source.unified
+    edits: list[tuple[Span, str]] = []
+    for line in lines:
+        first, second = (field.span for field in row_fields(source, line, 2))
+        turned = source[slice(*second)] + source[first.end : second.start] + source[slice(*first)]
+        edits.append((Span(first.start, second.end), turned))
+    return Repair("unsafe", "exchange the columns", tuple(edits))
+
+
+class CurveRows(NamedTuple):
+    """Lines of a table, without white space and line ends after them; `before` is the text of the curve above them."""
+
+    source: str
+    lines: list[Span]
+    before: str
+
+    def crosses_comment(self, order: Indices) -> bool:
+        """Return True if a comment is next to a row that the new order moves, or that other rows pass."""
+        settled = np.maximum.accumulate(order) == np.arange(len(order))  # up to here the rows stay among themselves
+        stays = order == np.arange(len(order))
+        if "mudline" in self.before.lower() and not stays[0]:  # a comment that speaks of the first row alone
+            return True
+        for place in range(len(order) - 1):
+            between = self.source[self.lines[place].end : self.lines[place + 1].start]
+            if between.strip() and not (settled[place] and stays[place] and stays[place + 1]):
+                return True
+        return False
+
+
+def _point_lines(text: TextOrigin, curve: SceneCurve) -> list[Span]:
+    """Return the lines with the points of a curve; none if there are very many, or the deck only continues its deck."""
+    block = text.read.get((curve.where.section, curve.where.block))
+    if block is None or len(curve.points) > MOST_REPORTED:
+        return []
+    runs = block.places.runs.get((*curve.where.path, "points"), [])
+    return [*chain.from_iterable(line_spans(text.source.unified, run) for _, run in runs)]
+
+
+def plain_rows(text: TextOrigin, curve: SceneCurve) -> CurveRows | None:
+    """Return the rows of a curve; None if there are very many, or equations, whose parameters may change."""
+    source = text.source.unified
+    lines = [Span(line.start, line.start + len(source[slice(*line)].rstrip())) for line in _point_lines(text, curve)]
+    if not lines or any(not _NO_PLAIN_NUMBERS.isdisjoint(source[slice(*line)]) for line in lines):
+        return None
+    places = text.read[curve.where.section, curve.where.block].places
+    opening = places.find(curve.where.path).start
+    if opening >= lines[0].start:  # rows of *EMBEDMENT that stand under no SET=
+        opening = places.block.start
+    return CurveRows(source, lines, source[opening : lines[0].start])
+
+
+def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
+    """Return a repair that sorts the rows by their ratios.
+
+    None for a curve that is not read whole, is very long or has equations, or if a comment would then be next to
+    another row.
+    """
+    if not curve.whole or (rows := plain_rows(text, curve)) is None or len(rows.lines) != len(curve.points):
+        return None
+    order = np.argsort(curve.points[:, 0], kind="stable")
+    if rows.crosses_comment(order):
+        return None
+    edits = [
+        (rows.lines[place], rows.source[slice(*rows.lines[row])])
+        for place, row in enumerate(order.tolist())
+        if place != row
+    ]
+    return Repair("safe", "put the points in order", tuple(edits)) if edits else None
+
+
+def removal(rows: CurveRows, row: int) -> Repair:
+    """Return a repair that removes a row."""
+    line = rows.lines[row]
+    following = rows.source.find("\n", line.end)
+    end = len(rows.source) if following < 0 else following + 1
+    return Repair("safe", "remove the point", ((Span(line.start, end), ""),))

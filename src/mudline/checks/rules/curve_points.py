@@ -1,37 +1,42 @@
-"""Force-embedment curves between their first and last points: columns, order, repeated points, falling forces."""
+"""Points of force-embedment curves: columns, order, repeated points, falling forces, and forces at both ends."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import chain, filterfalse
-from typing import NamedTuple
 
 import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.checks.context import Found, Joined, LintContext, joint
-from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
+from mudline.checks.rules.curve_text import _exchange, plain_rows, removal, sorting
+from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
-from mudline.language.syntax.rows import line_spans, row_fields
+from mudline.model.curves import ForceCurve
 from mudline.model.scene.curves import SceneCurve, clashes_and_repeats
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.numbering import Indices
 
 CRV002 = Code("CRV002", "unsorted-points", Severity.INFO)
 CRV004 = Code("CRV004", "repeated-point", Severity.WARNING)
 CRV005 = Code("CRV005", "decreasing-force", Severity.WARNING)
 CRV006 = Code("CRV006", "negative-ratio", Severity.WARNING)
+CRV007 = Code("CRV007", "force-at-zero", Severity.WARNING)
+CRV008 = Code("CRV008", "steep-extrapolation", Severity.WARNING)
 CRV009 = Code("CRV009", "swapped-columns", Severity.WARNING)
 CRV010 = Code("CRV010", "ratio-range", Severity.WARNING)
+CRV012 = Code("CRV012", "curve-pulls", Severity.WARNING)
+CRV013 = Code("CRV013", "flat-last-segment", Severity.WARNING)
 
 LARGEST_RATIO = 5.0
 """Largest embedment ratio in diameters; a larger one is a length or a percentage."""
 _LIKE_A_FORCE = 10.0
 _LIKE_A_RATIO = 2.0
-
-_NO_PLAIN_NUMBERS = frozenset('["{')
+STEEPEST = 100.0
+"""Ratio of the last two slopes of a curve."""
+_SMALL = 0.01
+"""Share of the largest force of a curve below which a force counts as none."""
 
 
 def swapped(curve: SceneCurve) -> bool:
@@ -65,21 +70,6 @@ def swapped_columns(context: LintContext) -> Iterator[Problem]:
             )
             repair = _exchange(context.text, curve) if context.text else None
             yield Problem(CRV009, message, where=curve.where, repair=repair)
-
-
-def _exchange(text: TextOrigin, curve: SceneCurve) -> Repair | None:
-    """Return a repair that exchanges the fields of each row; None for a curve not read whole, or very long."""
-    block = text.read.get((curve.where.section, curve.where.block))
-    runs = block.places.runs.get((*curve.where.path, "points"), []) if block else []
-    if not runs or len(curve.points) > MOST_REPORTED or not curve.whole:
-        return None
-    source = text.source.unified
-    edits: list[tuple[Span, str]] = []
-    for line in (line for _, run in runs for line in line_spans(source, run)):
-        first, second = (field.span for field in row_fields(source, line, 2))
-        turned = source[slice(*second)] + source[first.end : second.start] + source[slice(*first)]
-        edits.append((Span(first.start, second.end), turned))
-    return Repair("unsafe", "exchange the columns", tuple(edits))
 
 
 @rule(CRV010)
@@ -235,7 +225,8 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
     Finds: 4:2
     """
     for curve in context.scene.laws.curves:
-        if _free_above(curve.points):
+        until = curve.points[curve.points[:, 0] <= 0.0]
+        if (until[:, 0] == 0.0).any() and (until[:, 1] == 0.0).all():
             continue
         above = np.flatnonzero(curve.points[:, 0] < 0.0)[: 1 if is_upside_down(curve) else MOST_REPORTED]
         for index in above.tolist():
@@ -244,12 +235,6 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
             drawn = ", as all of them do: are depths negative?" if is_upside_down(curve) else drawn
             message = f"ratio {ratio!r} lies above the mudline, and contact begins at 0: remove or correct it{drawn}"
             yield Problem(CRV006, message, where=curve.point(index))
-
-
-def _free_above(points: Floats) -> bool:
-    """Return True if a curve has no force above the mudline, up to a point at 0."""
-    above = points[points[:, 0] <= 0.0]
-    return bool((above[:, 0] == 0.0).any() and (above[:, 1] == 0.0).all())
 
 
 @rule(CRV004)
@@ -276,67 +261,142 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
             yield Problem(CRV004, message, where=curve.point(index), repair=repair)
 
 
-class CurveRows(NamedTuple):
-    """Lines of a table, without white space and line ends after them; `before` is the text of the curve above them."""
-
-    source: str
-    lines: list[Span]
-    before: str
-
-    def crosses_comment(self, order: Indices) -> bool:
-        """Return True if a comment is next to a row that the new order moves, or that other rows pass."""
-        settled = np.maximum.accumulate(order) == np.arange(len(order))  # up to here the rows stay among themselves
-        stays = order == np.arange(len(order))
-        if "mudline" in self.before.lower() and not stays[0]:  # a comment that speaks of the first row alone
-            return True
-        for place in range(len(order) - 1):
-            between = self.source[self.lines[place].end : self.lines[place + 1].start]
-            if between.strip() and not (settled[place] and stays[place] and stays[place + 1]):
-                return True
-        return False
+# -------------------------------------------------------------------------------------------------- the ends of curves
 
 
-def plain_rows(text: TextOrigin, curve: SceneCurve) -> CurveRows | None:
-    """Return the rows of a curve; None if there are very many, or equations, whose parameters may change."""
-    block = text.read.get((curve.where.section, curve.where.block))
-    if block is None or len(curve.points) > MOST_REPORTED:
-        return None
-    source = text.source.unified
-    runs = block.places.runs.get((*curve.where.path, "points"), [])
-    lines = [
-        Span(line.start, line.start + len(source[slice(*line)].rstrip()))
-        for line in chain.from_iterable(line_spans(source, run) for _, run in runs)
-    ]
-    if not lines or any(not _NO_PLAIN_NUMBERS.isdisjoint(source[slice(*line)]) for line in lines):
-        return None
-    opening = block.places.find(curve.where.path).start
-    if opening >= lines[0].start:  # rows of *EMBEDMENT that stand under no SET=
-        opening = block.places.block.start
-    return CurveRows(source, lines, source[opening : lines[0].start])
+@joint(CRV012)
+def falls_where_it_pulls(_: LintContext, found: Found) -> Iterator[Joined]:
+    """Join a falling force to the negative force at the same point."""
+    falling = {problem.where: problem for problem in found.get("CRV005", ())}
+    for problem in found["CRV012"]:
+        if fall := falling.get(problem.where):
+            yield Joined(problem, [fall], fall.message)
 
 
-def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
-    """Return a repair that sorts the rows by their ratios.
+def _at_zero(curve: ForceCurve) -> float:
+    """Return the force at ratio 0; 0 if it overflows, or is small compared with the largest force of the curve."""
+    try:
+        force = float(curve.evaluate(np.zeros(1))[0][0])
+    except ValueError:
+        return 0.0
+    return force if abs(force) > _SMALL * float(np.abs(curve.forces).max()) else 0.0
 
-    None for a curve that is not read whole, is very long or has equations, or if a comment would then be next to
-    another row.
+
+def _deepest(curve: SceneCurve) -> int:
+    """Return the index of the point with the largest ratio."""
+    return int(np.argmax(curve.points[:, 0]))
+
+
+@rule(CRV007)
+def force_at_zero(context: LintContext) -> Iterator[Problem]:
+    """The force at ratio 0 is not 0.
+
+    Contact begins at ratio 0, when the centreline reaches the mudline. With a force there, the full reaction acts as
+    soon as the pipe touches, and vanishes as soon as it lifts off: the solver sees a jump and finds no equilibrium near
+    it. Below its first point a curve continues with its first slope, so a curve without the point (0, 0) may have a
+    force at ratio 0 too. A force above a hundredth of the largest force of the curve is reported. Add the point 0, 0.
+
+    Example on clay:
+        + 0.0, 0.0
+
+    Finds: 3:2
     """
-    if not curve.whole or (rows := plain_rows(text, curve)) is None or len(rows.lines) != len(curve.points):
-        return None
-    order = np.argsort(curve.points[:, 0], kind="stable")
-    if rows.crosses_comment(order):
-        return None
-    edits = [
-        (rows.lines[place], rows.source[slice(*rows.lines[row])])
-        for place, row in enumerate(order.tolist())
-        if place != row
-    ]
-    return Repair("safe", "put the points in order", tuple(edits)) if edits else None
+    for entry in context.scene.laws.curves:
+        curve = entry.curve
+        if curve is None or not (force := _at_zero(curve)):
+            continue
+        at_zero, where = np.flatnonzero(entry.points[:, 0] == 0.0), entry.where
+        if at_zero.size:
+            slope, advice, where = "", "give it the force 0", entry.point(int(at_zero[0]))
+        elif curve.ratios[0] < 0.0:
+            slope, advice = " (between the points beside it)", "correct the points about 0"
+        else:
+            slope, advice = " (with the slope of the first two points)", "add the point 0, 0"
+        if at_zero.size or entry.whole:
+            message = f"the force at ratio 0 is {force:.6g}{slope}: contact begins with a jump; {advice}"
+            yield Problem(CRV007, message, where=where)
 
 
-def removal(rows: CurveRows, row: int) -> Repair:
-    """Return a repair that removes a row."""
-    line = rows.lines[row]
-    following = rows.source.find("\n", line.end)
-    end = len(rows.source) if following < 0 else following + 1
-    return Repair("safe", "remove the point", ((Span(line.start, end), ""),))
+@rule(CRV012)
+def curve_pulls(context: LintContext) -> Iterator[Problem]:
+    """The force of a curve is negative at a ratio above 0.
+
+    An embedded pipe would be pulled down by the seabed. A wrong sign does this, and so does a curve that keeps
+    decreasing beyond its last point, or one whose first slope is so steep that it crosses 0 too late. Suction belongs
+    in *SEABED SUCTION or SUCTION=, where it acts on a rising pipe. Correct the force.
+
+    Example on clay:
+        - 0.1, -1200.0
+        + 0.1, 1200.0
+
+    Finds: 5:2
+    """
+    for entry in context.scene.laws.curves:
+        negative = np.flatnonzero((entry.points[:, 0] > 0.0) & (entry.points[:, 1] < 0.0))
+        if negative.size:
+            ratio, force = entry.points[negative[0]].tolist()
+            more = f" (as at {negative.size - 1} more of its points)" if negative.size > 1 else ""
+            message = f"the force at ratio {ratio!r} is {force!r}{more}: the seabed pulls the pipe down; correct it"
+            yield Problem(CRV012, message, where=entry.point(int(negative[0])))
+        elif entry.curve is not None and entry.whole and not is_upside_down(entry):
+            if (force := _at_zero(entry.curve)) < 0.0:
+                message = f"the force just above ratio 0 is {force:.6g}: the seabed pulls the pipe down; correct it"
+                yield Problem(CRV012, message, where=entry.where)
+            if entry.curve.slopes[-1] < 0.0:
+                message = (
+                    "the force keeps decreasing beyond the last point, until the seabed pulls the pipe down: "
+                    "add a point whose force does not decrease"
+                )
+                yield Problem(CRV012, message, where=entry.point(_deepest(entry)))
+
+
+@rule(CRV008)
+def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
+    """The last segment of a curve is over 100 times steeper than the one before it.
+
+    A curve continues beyond its last point with its last slope, so this segment alone gives the stiffness at every
+    greater depth. A rounded ratio or two points very close together make such a slope by accident. Correct the last
+    point, or remove it. Flat segments are left out of the comparison.
+
+    Example on clay:
+          0.5, 4200.0
+        - 0.5001, 4400.0
+        + 0.6, 5200.0
+
+    Finds: 7:2
+    """
+    for entry in context.scene.laws.curves:
+        if entry.curve is None or not entry.whole or entry.curve.slopes[-1] == 0.0:
+            continue
+        slopes = np.abs(entry.curve.slopes[entry.curve.slopes != 0.0])
+        if len(slopes) > 1 and slopes[-1] / STEEPEST > slopes[-2]:
+            last, before = entry.curve.slopes[-1], slopes[-2]
+            message = (
+                f"the last slope, {last:.6g}, is over {STEEPEST:g} times as steep as the one before, {before:.6g}, and "
+                "it holds at every greater depth: correct the point, or remove it"
+            )
+            yield Problem(CRV008, message, where=entry.point(_deepest(entry)))
+
+
+@rule(CRV013)
+def flat_last_segment(context: LintContext) -> Iterator[Problem]:
+    """The last segment of a curve is flat.
+
+    A curve continues beyond its last point with its last slope, which is zero here. A pipe that is heavier than the
+    last force sinks without end, and a static run does not converge. Add a point with a larger force.
+
+    Example on clay:
+          0.5, 4200.0
+        - 1.0, 4200.0
+        + 1.0, 4600.0
+
+    Finds: 7:2
+    """
+    for entry in context.scene.laws.curves:
+        if entry.curve is not None and entry.whole and entry.curve.slopes[-1] == 0.0:
+            force = float(entry.curve.forces[-1])
+            message = (
+                f"the force stays at {force!r} at every greater depth and does not support a heavier pipe: add a "
+                "point with a larger force"
+            )
+            yield Problem(CRV013, message, where=entry.point(_deepest(entry)))
