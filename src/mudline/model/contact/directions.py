@@ -9,7 +9,7 @@ import numpy as np
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.tables import LawTables
-from mudline.model.contact.vectors import in_plane, turned_3, units
+from mudline.model.contact.vectors import in_plane, turned, units
 
 if TYPE_CHECKING:
     from mudline.model.contact.trenches import Lowered
@@ -44,7 +44,7 @@ def directions_of(tables: LawTables, points: FloatArray, normals: FloatArray) ->
         friction = tables.friction
         if friction is not None and friction.turned.size:
             there = tuple(normals[friction.turned].T)
-            along[friction.turned] = np.stack(turned_3(friction.cosine, friction.sine, there), axis=1)
+            along[friction.turned] = np.stack(turned(friction.cosine, friction.sine, there), axis=1)
             follows[friction.turned] = False
         senses = np.ones((len(line.first), 2))
         senses[line.elements, line.sides] = line.senses

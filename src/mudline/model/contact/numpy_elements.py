@@ -39,9 +39,8 @@ class Work(NamedTuple):
     Attributes:
         planes: (3, steps, n) coordinates; empty if nothing moves sideways.
         load: half of the force of each element.
-        tangent: (c, steps, m + 2) components of the unit direction of each element; over a horizontal seabed only those
-            in its plane.
-        lateral: components of the lateral force of each element on each of its nodes.
+        tangent: (3, steps, m + 2) unit direction of each element; empty if nothing moves sideways.
+        lateral: (3, steps, m + 2) lateral force of each element on each of its nodes; empty without lateral springs.
         ratio: z/D of each element; empty if no node needs it.
     """
 
@@ -119,7 +118,8 @@ class ElementLaws:
             work.ratio[:, _INNER] = part.ratio
         if not len(work.tangent):
             return
-        along = self._write_directions(work)
+        first, second = self._ends(work)
+        work.tangent[..., _INNER] = along = units(second - first)
         if self._lateral is not None and state.touchdown is not None:
             self._apply_lateral(self._lateral, along, contact, part, state.touchdown, work)
 
@@ -296,13 +296,6 @@ class ElementLaws:
         shape = *work.planes.shape[:2], first.shape[1]
         return first.reshape(shape), second.reshape(shape)
 
-    def _write_directions(self, work: Work) -> FloatArray:
-        """Write the unit directions of the elements; return the components that `work` has."""
-        first, second = self._ends(work)
-        directions = units(second - first)[3 - len(work.tangent) :]
-        work.tangent[..., _INNER] = directions
-        return directions
-
     def _apply_lateral(
         self,
         some: _Subset,
@@ -313,9 +306,8 @@ class ElementLaws:
         work: Work,
     ) -> None:
         """Write the forces of lateral springs; update their touchdown points from step to step."""
-        plane = vectors.PLANES[len(along)]
         normal = mean_normal(self._tables, some.elements, part.normal)
-        across = plane.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
+        across = vectors.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
         touches = taken(contact, some.at)
         start, end = self._ends(work)
         middle = 0.5 * start[..., some.at] + 0.5 * end[..., some.at]
@@ -325,8 +317,7 @@ class ElementLaws:
             new, down = touch & ~down, touch
             held[:, step] = kept = np.where(new, middle[:, step], kept)
         touchdown[...] = np.where(down, kept, np.nan).T
-        first = 3 - len(along)
-        force = law_module("linear").lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
+        force = law_module("linear").lateral_force(some.columns[0], vectors.dot(across, middle - held))
         force = np.where(touches, force, 0.0)
         for target, axis in zip(work.lateral, across, strict=True):
             target[:, _INNER][:, some.at] = axis * force

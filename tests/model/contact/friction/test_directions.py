@@ -32,7 +32,7 @@ def axes(
 def projected(wanted: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The unit projections (n, 3) on planes of unit normals, or what stands in for them, and n x these."""
     first = in_plane(tuple(wanted.T), tuple(normals.T))
-    return np.stack(first, axis=1), np.stack(vectors.across_3(first, tuple(normals.T)), axis=1)
+    return np.stack(first, axis=1), np.stack(vectors.across(first, tuple(normals.T)), axis=1)
 
 
 def test_along_a_bent_line() -> None:

@@ -46,7 +46,6 @@ NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
 class Features(NamedTuple):
     """Features of a scene that the compiled loops depend on."""
 
-    flat: bool
     curves: bool
     paths: bool
     cuts: bool
@@ -64,19 +63,17 @@ class Features(NamedTuple):
     elliptic: bool
     turned: bool
     trench: bool
-    tables: bool
     breakout: bool
     embeds: bool
     velocities: bool
 
 
-def features_of(tables: LawTables, *, flat: bool) -> Features:
+def features_of(tables: LawTables) -> Features:
     """Return the features of a scene."""
-    friction, trench = tables.friction, tables.trench
+    friction = tables.friction
     own = "unloading", "springs", "damping", "nodal_damping", "suction", "lateral", "friction", "trench", "breakout"
     return Features(
         **{name: getattr(tables, name) is not None for name in own},
-        flat=flat,
         curves=any(rows.curve >= 0 for rows in tables.normal),
         paths=any(rows.path >= 0 for rows in tables.normal),
         cuts=tables.cuts,
@@ -86,7 +83,6 @@ def features_of(tables: LawTables, *, flat: bool) -> Features:
         nodal=bool(tables.nodal),
         elliptic=friction is not None and bool(friction.ellipse.any()),
         turned=friction is not None and bool(friction.turned.size),
-        tables=trench is not None and bool((trench.table >= 0).any()),
         embeds=tables.embeds,
         velocities=tables.velocities,
     )

@@ -40,7 +40,7 @@ from mudline.model.contact.compiled.functions import Loop, edition
 from mudline.model.contact.compiled.loops import whole_loop
 from mudline.model.contact.laws import MODULES, PathLaw, every, where
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.seabed import FlatSeabed, Seabed
+from mudline.model.contact.seabed import Seabed
 from mudline.model.contact.tables import IN_PLACE, ContactState, LawTables, NormalRows, StepBatch, arrays_of
 
 _BATCH = 3 * 2**19
@@ -109,8 +109,7 @@ class CompiledDriver:
         self._pool: ThreadPoolExecutor | None = None
         self._normal = None if seabed.same_normal is None else read_only(seabed.same_normal.reshape(1, 1, 3))
         self._nodes, self._elements = len(given.node_ids), len(given.element_ids)
-        has = features_of(tables, flat=isinstance(seabed, FlatSeabed))
-        self._has = has
+        self._has = has = features_of(tables)
         normal = formulas(tables)
         slopes = tuple((_as_reaction(rows.law.steepest), len(rows.law.parameters)) for rows in normal if has.steepens)
         sources = edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
@@ -180,8 +179,7 @@ class CompiledDriver:
 
     def _work(self, steps: int) -> tuple[Any, ...]:
         """Return the arrays for directions and lateral forces of elements, which nodes need."""
-        components = 2 if self._has.flat else 3
-        shape, none = (steps, self._elements, components), (0, 0, components)
+        shape, none = (steps, self._elements, 3), (0, 0, 3)
         return np.empty(shape if self._has.slides else none), np.empty(shape if self._has.lateral else none)
 
     def _arrays(self, part: ContactResult, points: FloatArray) -> tuple[Any, ...]:
