@@ -24,7 +24,8 @@ from mudline.model.contact.vectors import Components, in_plane
 
 if TYPE_CHECKING:
     from mudline.model.contact.laws.friction import FrictionHistory, FrictionLaw
-    from mudline.model.contact.trenches import LaidCentreline, TrenchRows
+    from mudline.model.contact.laws.trench import TrenchRows
+    from mudline.model.contact.trenches import LaidCentreline
 
 BLOCK = 32768
 """Elements or nodes, times steps, of a batch: work arrays of short lines stay in the second-level cache."""
@@ -278,13 +279,11 @@ class NodeLaws:
         self, places: FloatArray, across: Components, pressing: FloatArray, laid: LaidCentreline
     ) -> tuple[FloatArray, BoolArray, BoolArray]:
         """Return the resistance of trenches (steps, k), and whether it acts against motion along +u2, or along -u2."""
-        from mudline.model.contact.trenches import resistance  # noqa: PLC0415 - most friction has no trench
-
         at, trench = self._in_trench, cast("TrenchRows", self._tables.trench)
         away = laid.away(laid.beside(trench), np.ascontiguousarray(places[..., at])).vector
         lateral = tuple(taken(axis, at) for axis in across)
         offset = vectors.dot(lateral, away)
-        return resistance(trench, offset, taken(pressing, at)), offset > 0.0, offset < 0.0
+        return law_module("trench").resistance(trench, offset, taken(pressing, at)), offset > 0.0, offset < 0.0
 
     def _added(self, trial: FloatArray, added: FloatArray, forward: BoolArray, back: BoolArray) -> FloatArray:
         """Return the resistance of trenches at nodes (k,) with these trial forces."""

@@ -184,9 +184,7 @@ def trench_tables(tables: LawTables) -> tuple[Any, ...]:
     if trench is None:
         none = (np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((4, 0)))
         return between(np.zeros(1)), read_only(np.zeros((0, TRENCH_INDICES), np.uint32)), *map(read_only, none)
-    from mudline.model.contact.laws.trench import table_rows  # noqa: PLC0415 - most friction has no trench
-
-    rows = [np.stack(table_rows(table)) for table in tables.given.tables]
+    rows = [np.stack(table) for table in trench.tables]
     starts = np.append(0, np.cumsum([table.shape[1] for table in rows]))
     index = np.full((len(trench.nodes), TRENCH_INDICES), NOTHING, np.uint32)
     index[:, TRENCH_KIND] = trench.kind
