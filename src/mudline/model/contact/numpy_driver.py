@@ -55,8 +55,10 @@ class NumpyDriver:
         """Write a batch to `part` except gaps and normals, which are there already; `state` is updated in place."""
         steps, elements = len(batch.points), len(self._tables.half)
         lateral = 3 if self._tables.lateral is not None else 0
+        normals = part.normal[:1, :1] if part.normal.strides[1] == 0 else part.normal  # shared by all nodes, or not
         work = Work(
             np.ascontiguousarray(batch.points.transpose(2, 0, 1)) if self._slides else np.empty((0, 0, 0)),
+            tuple(np.ascontiguousarray(normals[..., axis]) for axis in range(3)),
             np.zeros((steps, elements + 2)),
             np.zeros((3 if self._slides else 0, steps, elements + 2)),
             np.zeros((lateral, steps, elements + 2)),
@@ -149,10 +151,7 @@ class NodeLaws:
         if tables.nodal_damping is not None and speed is not None:
             total += law_module("linear").damping_force(0.0 - part.gap, speed, tables.nodal_damping)
         part.normal_force[...] = total
-        if part.normal.strides[1] == 0:  # all nodes share a normal
-            normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
-        else:
-            normal = tuple(np.ascontiguousarray(part.normal[..., axis]) for axis in range(3))
+        normal = work.normal
         if not len(work.tangent):
             for axis in range(3):
                 # a negative force times a zero component is -0, which is no reaction of its own

@@ -17,12 +17,11 @@ from mudline.model.contact.arrays import (
     as_range,
     taken,
 )
-from mudline.model.contact.directions import mean_normal
 from mudline.model.contact.input import AssignedLaw
 from mudline.model.contact.laws import PathLaw, law_module
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.tables import ContactState, LawTables, NormalRows, arrays_of
-from mudline.model.contact.vectors import in_plane, units
+from mudline.model.contact.vectors import Components, in_plane, units
 
 if TYPE_CHECKING:
     from mudline.model.contact.laws.suction import SuctionHistory
@@ -38,6 +37,7 @@ class Work(NamedTuple):
 
     Attributes:
         planes: (3, steps, n) coordinates; empty if nothing moves sideways.
+        normal: components (steps, n) of the normals of the nodes, (1, 1) if all share one.
         load: half of the force of each element.
         tangent: (3, steps, m + 2) unit direction of each element; empty if nothing moves sideways.
         lateral: (3, steps, m + 2) lateral force of each element on each of its nodes; empty without lateral springs.
@@ -45,6 +45,7 @@ class Work(NamedTuple):
     """
 
     planes: FloatArray
+    normal: Components
     load: FloatArray
     tangent: FloatArray
     lateral: FloatArray
@@ -121,7 +122,7 @@ class ElementLaws:
         first, second = self._ends(work)
         work.tangent[..., _INNER] = along = units(second - first)
         if self._lateral is not None and state.touchdown is not None:
-            self._apply_lateral(self._lateral, along, contact, part, state.touchdown, work)
+            self._apply_lateral(self._lateral, along, contact, state.touchdown, work)
 
     def _of_elements(self, values: FloatArray) -> FloatArray:
         """Return the means (steps, m) of values (steps, n) at both ends; halves first: their sum cannot overflow."""
@@ -301,12 +302,15 @@ class ElementLaws:
         some: _Subset,
         along: FloatArray,
         contact: BoolArray,
-        part: ContactResult,
         touchdown: FloatArray,
         work: Work,
     ) -> None:
         """Write the forces of lateral springs; update their touchdown points from step to step."""
-        normal = mean_normal(self._tables, some.elements, part.normal)
+        normal = work.normal
+        if normal[0].shape[1] > 1:
+            line, ends = self._tables.line, some.elements
+            sides = line.first[ends], line.second[ends]
+            normal = vectors.mean_normal(*(tuple(axis[:, side] for axis in normal) for side in sides))
         across = vectors.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
         touches = taken(contact, some.at)
         start, end = self._ends(work)

@@ -13,14 +13,14 @@ from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
 from mudline.model.contact.laws import NormalLaw, PathLaw
-from mudline.model.contact.line import Incidence
+from mudline.model.contact.line import Incidence, directions_of
 from mudline.model.contact.seabed import heading
 
 if TYPE_CHECKING:
     from mudline.model.contact.laws.friction import FrictionHistory, FrictionLaw
     from mudline.model.contact.laws.suction import SuctionHistory
     from mudline.model.contact.laws.unloading import UnloadingHistory
-    from mudline.model.contact.trenches import LaidCentreline
+    from mudline.model.contact.trenches import LaidCentreline, Lowered
 
 
 _Part = Any
@@ -221,6 +221,15 @@ class LawTables:
             # in one assignment, so that threads which share the model see matching pairs
             self._laid = kept = (laid, LaidCentreline(laid, self.line))
         return kept[1]
+
+    def lowered(self, points: FloatArray, laid: FloatArray, normal: FloatArray) -> Lowered:
+        """Return depth and gradient of trenches below nodes at `points` (n, 3); TypeError if none lowers the seabed."""
+        from mudline.model.contact.trenches import level_at  # noqa: PLC0415 - few trenches do
+
+        if self.level is None:
+            raise TypeError("no trench lowers the seabed")
+        lateral = directions_of(self.line, self.friction, points, normal).axes[1]
+        return level_at(self.level, self.laid_line(laid), points, lateral)
 
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""

@@ -15,8 +15,8 @@ import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.model.contact.directions import Directions, directions_of, level, projected
 from mudline.model.contact.laws import Moving, PathLaw
+from mudline.model.contact.line import Directions, along_seabed, directions_of
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.tables import ContactState, LawTables
 
@@ -119,7 +119,7 @@ def assemble(
     normal = np.asarray(result.normal)
     slope, laid = normal, points if states[0].laid is None else states[0].laid
     if tables.level is not None:
-        slope = normal + level(tables, points, laid, normal).gradient
+        slope = normal + tables.lowered(points, laid, normal).gradient
     step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
     stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
     by_position, by_velocity = _BlockSum(nodes), _BlockSum(nodes)
@@ -214,7 +214,7 @@ def _add_lateral(step: _Step, blocks: _BlockSum) -> None:
     mean = step.normal[first] + step.normal[second]
     mean = mean / _size(mean)[:, None]
     span = step.points[second] - step.points[first]
-    across = np.cross(mean, projected(_unit(span)[0], mean))
+    across = np.cross(mean, along_seabed(_unit(span)[0], mean))
     arm = 0.5 * step.points[first] + 0.5 * step.points[second] - after[rows]
     turn = _turning(span, mean)  # of n x t by the second end, minus that by the first
     force = -stiffness * np.einsum("ki,ki->k", across, arm)
@@ -257,7 +257,7 @@ def _friction_of(step: _Step) -> _Sliding:
     absent = np.isnan(step.result.gap)
     places = np.where(absent[:, None], 0.0, step.points)
     compression = np.where(absent, 0.0, step.result.normal_force)
-    directions = directions_of(tables, step.points, step.normal)
+    directions = directions_of(tables.line, law, step.points, step.normal)
     extra = None
     if law is None or history is None:
         raise TypeError("the state has no friction: it belongs to another model")

@@ -18,7 +18,7 @@ _STEEPEST = 1e-18
 """Square of the sine of the angle to the normal of the seabed below which a direction has no projection."""
 
 
-def dot(a: Vector, b: Vector) -> Value:
+def dot(a: Vector, b: Vector | FloatArray) -> Value:
     """Return the scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.directions import directions_of
+from mudline.model.contact.line import directions_of
 from mudline.model.contact.tables import LawTables
 from mudline.model.contact.vectors import in_plane
 from tests.helpers.builders.contact import LINEAR, chain, friction
@@ -26,7 +26,8 @@ def axes(
     inputs = chain([LINEAR] * (len(points) - 1), friction(len(points), angle=angle))
     if ends is not None:
         inputs = replace(inputs, element_nodes=np.array(ends, np.intp))
-    return directions_of(LawTables(inputs), points, normals).axes
+    tables = LawTables(inputs)
+    return directions_of(tables.line, tables.friction, points, normals).axes
 
 
 def projected(wanted: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
