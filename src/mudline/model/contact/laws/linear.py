@@ -191,6 +191,24 @@ def lateral_force(stiffness: Value, elongation: Value) -> Value:
     return -stiffness * elongation
 
 
+def lateral_tangent(
+    stiffness: FloatArray, across: FloatArray, arm: FloatArray, turn: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return derivatives (k, 3, 3) of the force on each of the two nodes by the positions of the first and the second.
+
+    `across` (k, 3) is n x t, `arm` (k, 3) the displacement from the touchdown point, `turn` (k, 3, 3) the derivative of
+    n x t by the second node's position, minus that by the first's.
+    """
+    force = -stiffness * np.einsum("ki,ki->k", across, arm)
+    first, second = (
+        across[:, :, None]
+        * ((0.0 - stiffness)[:, None] * (0.5 * across + sign * np.einsum("ki,kij->kj", arm, turn)))[:, None]
+        + force[:, None, None] * sign * turn
+        for sign in (-1.0, 1.0)
+    )
+    return first, second
+
+
 LATERAL = Law(
     name="lateral",
     summary="spring to the touchdown point of the element",
