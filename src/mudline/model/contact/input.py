@@ -121,6 +121,11 @@ class AssignedLaw:
             else plan(self.parameters)
         )
 
+    def at(self, places: IndexArray) -> tuple[IndexArray, dict[str, FloatArray]]:
+        """Return new rows and parameters of the rows that have a place >= 0 among the `places` of all."""
+        kept = places[self.rows] >= 0
+        return places[self.rows[kept]], {name: values[kept] for name, values in self.parameters.items()}
+
     def spread(self, name: str, count: int, otherwise: float = np.nan) -> FloatArray:
         """Return a parameter for all of `count` elements or nodes, `otherwise` where the law does not apply."""
         values = np.full(count, otherwise)

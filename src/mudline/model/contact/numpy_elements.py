@@ -216,9 +216,8 @@ class ElementLaws:
         for rows, at, diameter in self._normal:
             here = taken(z, at)
             if rows.curve >= 0:
-                from mudline.model.contact.laws.curve import steepest_slope  # noqa: PLC0415 - only now is it needed
-
-                steepest = steepest_slope(self._tables.given.curves[rows.curve], here / diameter) / diameter
+                curve = self._tables.given.curves[rows.curve]
+                steepest = law_module("linear").steepest_slope(curve, here / diameter) / diameter
             else:
                 steepest = rows.law.steepest(here, diameter, *rows.columns)
             slopes[:, at] = steepest

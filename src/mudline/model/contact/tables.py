@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
-from mudline.model.contact.laws import NormalLaw, PathLaw
+from mudline.model.contact.laws import NormalLaw, PathLaw, law_module
 from mudline.model.contact.line import Incidence, directions_of
 from mudline.model.contact.seabed import heading
 
@@ -334,9 +334,8 @@ def steepest_anywhere(tables: LawTables, rows: NormalRows) -> FloatArray:
     """Return the largest stiffness (k,) that a normal law can reach on its elements or nodes."""
     with np.errstate(all="ignore"):  # an overflow is refused at the step where it occurs
         if rows.curve >= 0:
-            from mudline.model.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
-
-            slopes: FloatArray = steepest_slopes(tables.given.curves[rows.curve]).max() / tables.diameter[rows.rows]
+            steepest: FloatArray = law_module("linear").steepest_slopes(tables.given.curves[rows.curve])
+            slopes: FloatArray = steepest.max() / tables.diameter[rows.rows]
             return slopes
         diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
         stiffness = rows.law.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)

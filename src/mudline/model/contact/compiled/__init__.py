@@ -12,15 +12,12 @@ This module makes the input of the loops: tables with a row for each element or 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.laws import law_module
 from mudline.model.contact.tables import LawTables, NormalRows
-
-if TYPE_CHECKING:
-    from mudline.model.curves import ForceCurve
 
 # Columns of the table of numbers of elements, before the parameters of their normal laws.
 DIAMETER, ONSET, LINE, SPRING, EXTENT, LATERAL, LAW = range(7)
@@ -115,7 +112,10 @@ def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
     for rows in tables.normal:
         if rows.curve >= 0:
             curve = given.curves[rows.curve]
-            knots.append(_knots(curve))
+            each, steepest = curve.slopes, law_module("linear").steepest_slopes(curve)
+            knots.append(
+                np.stack([curve.ratios, curve.forces, np.append(each, each[-1]), np.append(steepest, steepest[-1])])
+            )
             index[rows.rows, KIND] = ON_CURVE
             index[rows.rows, CURVE_START] = start
             start += len(curve.ratios)
@@ -132,20 +132,11 @@ def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
     return read_only(index), read_only(numbers), read_only(np.concatenate(knots, axis=1))
 
 
-def _knots(curve: ForceCurve) -> FloatArray:
-    from mudline.model.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
-
-    steepest, slopes = steepest_slopes(curve), curve.slopes
-    return np.stack([curve.ratios, curve.forces, np.append(slopes, slopes[-1]), np.append(steepest, steepest[-1])])
-
-
 def suction_table(tables: LawTables) -> Any:
     """Return the suction laws (k, c)."""
     if tables.suction is None:
         return read_only(np.empty((0, SUCTION_COLUMNS)))
-    from mudline.model.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
-
-    law = SuctionLaw(*tables.suction.columns)
+    law = law_module("suction").SuctionLaw(*tables.suction.columns)
     return read_only(np.column_stack([*law, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor), law.least_depth]))
 
 

@@ -33,9 +33,8 @@ from mudline.model.contact.compiled.functions import (
     trench_limit,
 )
 from mudline.model.contact.laws import PathLaw
-from mudline.model.contact.laws.curve import on_segment
 from mudline.model.contact.laws.friction import slip_distance
-from mudline.model.contact.laws.linear import damping_force, lateral_force, spring_suction
+from mudline.model.contact.laws.linear import damping_force, lateral_force, on_segment, spring_suction
 from mudline.model.contact.laws.suction import SUCTION
 
 

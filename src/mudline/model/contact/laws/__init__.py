@@ -268,7 +268,7 @@ _LAWS: dict[str, str | Law] = {
     "linear": "linear:LINEAR",
     "smoothed": "linear:SMOOTHED",
     "nodal": "linear:NODAL",
-    "curve": "curve:CURVE",
+    "curve": "linear:CURVE",
     "rigid": "linear:RIGID",
     "unloading": "unloading:UNLOADING",
     "suction": "suction:SUCTION_LAW",

@@ -1,4 +1,10 @@
-"""Laws of constant stiffness or damping: normal laws, springs against uplift and lateral springs, the rigid seabed.
+"""Linear and piecewise linear laws: normal laws, springs against uplift and lateral springs, damping, the rigid seabed.
+
+`*EMBEDMENT` and `*SEABED STIFFNESS` are curves over the ratio of penetration to diameter,
+
+    F = F_i + s_i (z / D - r_i),  dF/dz = s_i / D
+
+in the segment i that contains z / D; see `mudline.model.curves`. A negative force is kept, or cut to 0.
 
 `STIFFNESS=number` of `*SEABED PROPERTIES` and of `*ELASTIC SURFACE`; `NODAL STIFFNESS=`, `SMOOTHING=` and `FORM=` of
 `*SEABED CONTACT`. With the stiffness K and the half width h of the zone, over the penetration z:
@@ -35,6 +41,7 @@ It is added to the reaction, which friction depends on, and never pulls.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -42,10 +49,35 @@ from mudline.basics.short_repr import counted
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.laws import Law, Moving, NormalLaw, Parameter, Reached, Value, where
 
+if TYPE_CHECKING:
+    from mudline.model.curves import ForceCurve
+
 _WIDEST = 0.25 * float(np.finfo(np.float64).max)
 """Half widths above this are halved in sums that would overflow."""
 _SMALL_SHARE = 2.0**-960
 _LIFT = 2.0**60
+
+
+def on_segment(ratio: Value, start: Value, force: Value, slope: Value) -> Value:
+    """Return the force at a ratio of the segment with this start, force and slope."""
+    return force + slope * (ratio - start)
+
+
+def steepest_slopes(curve: ForceCurve) -> FloatArray:
+    """Return for each segment (n - 1,) the steepest slope between the mudline and its end."""
+    first = int(curve.segment(np.zeros(1))[0])
+    slopes: FloatArray = np.concatenate(
+        [np.full(first, curve.slopes[first]), np.maximum.accumulate(curve.slopes[first:])]
+    )
+    return slopes
+
+
+def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
+    """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0.
+
+    At a point of the curve the segment to its right is not included; an infinite ratio includes the whole curve.
+    """
+    return steepest_slopes(curve)[np.searchsorted(curve.ratios[1:-1], ratio)]
 
 
 def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value, Value]:
@@ -119,6 +151,16 @@ def _planned_nodes(parameters: dict[str, FloatArray]) -> str:
     return f"{counted(nodes, 'node')} with a stiffness of {'its' if nodes == 1 else 'their'} own"
 
 
+CURVE = NormalLaw(
+    name="curve",
+    summary="force-embedment curve",
+    acts_on="elements",
+    parameters=(Parameter("curve", "1", "index of the curve"),),
+    needs_diameter=True,
+    tables=True,
+    equation="F = F_i + s_i (z / D - r_i)",
+    source="definition of *EMBEDMENT and *SEABED STIFFNESS",
+)
 LINEAR = NormalLaw(
     name="linear",
     summary="linear stiffness",
