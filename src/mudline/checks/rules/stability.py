@@ -78,11 +78,11 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
 
 def _release(law: SuctionLaw) -> Floats:
     """Return |slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
-    from mudline.model.contact.laws.suction import release_stiffness  # noqa: PLC0415 - most decks do without
+    from mudline.model.contact.laws.suction import suction_rates  # noqa: PLC0415 - most decks do without
 
     with np.errstate(all="ignore"):
         usable = (law.second_corner >= _SMALLEST_PART) & (law.second_corner <= _LARGEST_PART)
-        return np.where(usable & (law.regularisation > 0.0), release_stiffness(law, law.regularisation), np.nan)
+        return np.where(usable & (law.regularisation > 0.0), suction_rates(law, law.regularisation)[1], np.nan)
 
 
 @rule(STB002, off=True)

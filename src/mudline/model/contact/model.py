@@ -327,7 +327,7 @@ class ContactModel:
         batch = StepBatch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid, complete)
         if self._tables.level is not None:
             for place, normals, height in zip(points, part.normal, part.gap, strict=True):
-                np.add(height, self._tables.lowered(place, laid, normals).depth, out=height)
+                np.add(height, self._tables.lowered(place, laid, normals)[0], out=height)
         after = state.following(spare, points[-1], laid) if self.plan.history else state
         if driver is None or not driver.run(batch, part, state, after):
             after.remember(state)

@@ -7,8 +7,6 @@ are not finite.
 
 from __future__ import annotations
 
-import ctypes
-import sys
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -29,15 +27,12 @@ if TYPE_CHECKING:
 
 BLOCK = 32768
 """Elements or nodes, times steps, of a batch: work arrays of short lines stay in the second-level cache."""
-_KEPT = {-3: 2**25, -1: 2**29}
-"""Options of `mallopt`: largest kept array (M_MMAP_THRESHOLD), kept memory of the heap (M_TRIM_THRESHOLD)."""
 
 
 class NumpyDriver:
     """Evaluator of batches of steps. Holds no state of a series; may be shared by threads."""
 
     def __init__(self, tables: LawTables, seabed: Seabed) -> None:
-        _keep_freed_memory()
         self._tables, self._seabed = tables, seabed
         self.steps = max(1, BLOCK // max(len(tables.half), len(tables.given.node_ids), 1))
         """Number of steps at a time that is fastest."""
@@ -67,18 +62,6 @@ class NumpyDriver:
         self._elements.run(batch, part, state, work)
         laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
         self._nodes.run(batch.speed, part, state, work, laid)
-
-
-def _keep_freed_memory() -> None:
-    """Let the GNU C library keep the arrays of a batch for the next batch.
-
-    By default it returns large arrays to the system as soon as they are freed. Touching new memory costs more than the
-    computations in it: a fifth of the time of a million nodes.
-    """
-    set_option = getattr(ctypes.CDLL(None), "mallopt", None) if sys.platform == "linux" else None
-    if set_option is not None:
-        for option, size in _KEPT.items():
-            set_option(option, size)
 
 
 class _Breakout(NamedTuple):
@@ -158,7 +141,12 @@ class NodeLaws:
                 np.add(total * normal[axis], 0.0, out=reaction[..., axis])
             return
         direction = self._sums(work.tangent, directed=True)
-        along = self._turned_axes(in_plane(direction, normal), normal)
+        along = in_plane(direction, normal)
+        law = tables.friction
+        if law is not None and law.turned.size:  # u1 at an angle to +Y
+            there = normal if normal[0].shape[1] == 1 else tuple(axis[:, law.turned] for axis in normal)
+            for component, values in zip(along, vectors.turned(law.cosine, law.sine, there), strict=True):
+                component[:, law.turned] = values
         sideward = self._tangential_reaction(part, state, work, (along, vectors.across(along, normal)), laid)
         for axis, component in enumerate(vectors.reaction(total, normal, sideward)):
             reaction[..., axis] = component
@@ -167,16 +155,6 @@ class NodeLaws:
         """Return sums (steps, k) of each component (c, steps, m + 2) of vectors of the elements."""
         sums = self._tables.line.sums(values.reshape(-1, values.shape[2]), directed=directed)
         return tuple(sums.reshape(*values.shape[:2], sums.shape[1]))
-
-    def _turned_axes(self, along: Components, normal: Components) -> Components:
-        """Set u1 of nodes with an angle to +Y."""
-        law = self._tables.friction
-        if law is None or not law.turned.size:
-            return along
-        there = normal if normal[0].shape[1] == 1 else tuple(axis[:, law.turned] for axis in normal)
-        for axis, values in zip(along, vectors.turned(law.cosine, law.sine, there), strict=True):
-            axis[:, law.turned] = values
-        return along
 
     def _tangential_reaction(
         self,

@@ -98,7 +98,10 @@ class ElementLaws:
 
     def run(self, batch: StepBatch, part: ContactResult, state: ContactState, work: Work) -> None:
         """Write the elements of a batch, and their values for the nodes."""
-        depth, contact = self._write_depths(part)
+        depth, contact = part.depth, part.contact  # of NaN where there is no seabed
+        np.subtract(0.0, self._of_elements(part.gap), out=depth)
+        np.divide(depth, self._tables.diameter, out=part.ratio)
+        np.greater(depth, self._onset, out=contact)
         values = part.force, part.slope, part.stiffness
         trench = None
         if self._unloading is not None and state.unloading is not None:
@@ -130,14 +133,6 @@ class ElementLaws:
         mean: FloatArray = 0.5 * first
         mean += 0.5 * second
         return mean
-
-    def _write_depths(self, part: ContactResult) -> tuple[FloatArray, BoolArray]:
-        """Write depth, ratio and contact from the gaps of the nodes; NaN where there is no seabed."""
-        depth, contact = part.depth, part.contact
-        np.subtract(0.0, self._of_elements(part.gap), out=depth)
-        np.divide(depth, self._tables.diameter, out=part.ratio)
-        np.greater(depth, self._onset, out=contact)
-        return depth, contact
 
     def _apply_normal_laws(
         self, depth: FloatArray, touches: BoolArray, values: Values, part: ContactResult, paths: FloatArray | None

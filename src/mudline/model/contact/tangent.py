@@ -123,7 +123,7 @@ def assemble(
     normal = np.asarray(result.normal)
     slope, laid = normal, points if states[0].laid is None else states[0].laid
     if tables.level is not None:
-        slope = normal + tables.lowered(points, laid, normal).gradient
+        slope = normal + tables.lowered(points, laid, normal)[1]
     step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
     stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
     by_position, by_velocity = _BlockSum(nodes), _BlockSum(nodes)

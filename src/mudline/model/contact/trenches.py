@@ -290,21 +290,16 @@ def _foot(points: FloatArray, piece: _Pieces) -> tuple[FloatArray, FloatArray, F
     return share, away, squares[0] + squares[1] + squares[2]
 
 
-class Lowered(NamedTuple):
-    """Depth (n,) by which the seabed is lowered at nodes, and its gradient (n, 3) with u2 held."""
-
-    depth: FloatArray
-    gradient: FloatArray
-
-
-def level_at(trench: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray) -> Lowered:
-    """Return depth and gradient of the trenches below nodes at `points` (n, 3) with u2 (n, 3)."""
-    total = Lowered(np.zeros(len(points)), np.zeros(points.shape))
-    _, offset, gradient = _offsets(trench, line, points, lateral)
+def level_at(
+    trench: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return the depth (n,) by which trenches lower the seabed at `points` (n, 3), and its gradient (n, 3), u2 held."""
+    depth, gradient = np.zeros(len(points)), np.zeros(points.shape)
+    _, offset, by_place = _offsets(trench, line, points, lateral)
     share, slope = lowered(np.abs(offset), trench.inner, trench.outer)
-    np.add.at(total.depth, trench.nodes, trench.amount * share)
-    np.add.at(total.gradient, trench.nodes, (trench.amount * slope * np.sign(offset))[:, None] * gradient)
-    return total
+    np.add.at(depth, trench.nodes, trench.amount * share)
+    np.add.at(gradient, trench.nodes, (trench.amount * slope * np.sign(offset))[:, None] * by_place)
+    return depth, gradient
 
 
 def _offsets(

@@ -12,7 +12,7 @@ This module makes the input of the loops: tables with a row for each element or 
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -40,49 +40,24 @@ NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
 """Kinds of normal laws of elements; laws with an equation are numbered from the last kind on."""
 
 
-class Features(NamedTuple):
-    """Features of a scene that the compiled loops depend on."""
-
-    curves: bool
-    paths: bool
-    cuts: bool
-    unloading: bool
-    steepens: bool
-    springs: bool
-    damping: bool
-    nodal_damping: bool
-    suction: bool
-    slides: bool
-    turns: bool
-    lateral: bool
-    nodal: bool
-    friction: bool
-    elliptic: bool
-    turned: bool
-    trench: bool
-    breakout: bool
-    embeds: bool
-    velocities: bool
-
-
-def features_of(tables: LawTables) -> Features:
-    """Return the features of a scene."""
+def features_of(tables: LawTables) -> frozenset[str]:
+    """Return the names of the features of a scene that the compiled loops depend on."""
     friction = tables.friction
     own = "unloading", "springs", "damping", "nodal_damping", "suction", "lateral", "friction", "trench", "breakout"
-    return Features(
-        **{name: getattr(tables, name) is not None for name in own},
-        curves=any(rows.curve >= 0 for rows in tables.normal),
-        paths=any(rows.path >= 0 for rows in tables.normal),
-        cuts=tables.cuts,
-        steepens=tables.steepens,
-        slides=friction is not None or tables.lateral is not None,
-        turns=tables.line.turns,
-        nodal=bool(tables.nodal),
-        elliptic=friction is not None and bool(friction.ellipse.any()),
-        turned=friction is not None and bool(friction.turned.size),
-        embeds=tables.embeds,
-        velocities=tables.velocities,
-    )
+    has = {name: getattr(tables, name) is not None for name in own} | {
+        "curves": any(rows.curve >= 0 for rows in tables.normal),
+        "paths": any(rows.path >= 0 for rows in tables.normal),
+        "cuts": tables.cuts,
+        "steepens": tables.steepens,
+        "slides": friction is not None or tables.lateral is not None,
+        "turns": tables.line.turns,
+        "nodal": bool(tables.nodal),
+        "elliptic": friction is not None and bool(friction.ellipse.any()),
+        "turned": friction is not None and bool(friction.turned.size),
+        "embeds": tables.embeds,
+        "velocities": tables.velocities,
+    }
+    return frozenset(name for name, present in has.items() if present)
 
 
 def formulas(tables: LawTables) -> list[NormalRows]:

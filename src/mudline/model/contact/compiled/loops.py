@@ -10,7 +10,7 @@ import numpy as np
 
 from mudline.model.contact import compiled as col
 from mudline.model.contact import vectors
-from mudline.model.contact.compiled import FIRST_LAW, NOTHING, ON_CURVE, Features
+from mudline.model.contact.compiled import FIRST_LAW, NOTHING, ON_CURVE
 from mudline.model.contact.compiled.functions import (
     NOWHERE,
     ONE,
@@ -40,7 +40,7 @@ from mudline.model.contact.laws.suction import SUCTION
 
 def elements_loop(
     wrap: Wrap,
-    has: Features,
+    has: frozenset[str],
     laws: tuple[tuple[Callable[..., Any], int], ...],
     paths: tuple[PathLaw, ...],
     slopes: tuple[tuple[Callable[..., Any], int], ...],
@@ -51,11 +51,12 @@ def elements_loop(
     `laws` are the normal laws with equations, `paths` the first of them, which follow a path. `slopes` are their
     steepest slopes in the form of reactions, if an unloading line may be less steep than the virgin path.
     """
-    curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
-    suction, slides, lateral, damps = has.suction, has.slides, has.lateral, has.damping
+    curves, cuts, follows, springs = "curves" in has, "cuts" in has, "paths" in has, "springs" in has
+    unloading, steepens = "unloading" in has, "steepens" in has
+    suction, slides, lateral, damps = "suction" in has, "slides" in has, "lateral" in has, "damping" in has
     suction_law = row_of(wrap, col.SUCTION_COLUMNS)
     normal_law, steepest = one_of(wrap, laws, col.LAW), one_of(wrap, slopes, col.LAW)
-    follow, follows = followed(wrap, paths, col.LAW), has.paths
+    follow = followed(wrap, paths, col.LAW)
 
     def loop(
         begin: Index, end: Index, tables: Array, points: Array, speed: Array, work: Array, part: Array, before: Array,
@@ -173,11 +174,12 @@ def elements_loop(
     return loop
 
 
-def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
+def nodes_loop(wrap: Wrap, has: frozenset[str], laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
     """Return the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
-    friction, turned, lateral, nodal, slides = has.friction, has.turned, has.lateral, has.nodal, has.slides
-    turns, moves, damps = has.turns, has.velocities, has.nodal_damping
-    elliptic, trench, breakout, embeds = has.elliptic, has.trench, has.breakout, has.embeds
+    friction, turned, slides = "friction" in has, "turned" in has, "slides" in has
+    lateral, nodal = "lateral" in has, "nodal" in has
+    turns, moves, damps = "turns" in has, "velocities" in has, "nodal_damping" in has
+    elliptic, trench, breakout, embeds = "elliptic" in has, "trench" in has, "breakout" in has, "embeds" in has
     normal_law = one_of(wrap, laws, col.NODE_LAW)
 
     def loop(

@@ -85,7 +85,7 @@ def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value,
     return stiffness * z, stiffness
 
 
-def linear_steepest(z: Value, diameter: Value, stiffness: Value) -> Value:
+def own_stiffness(z: Value, diameter: Value, stiffness: Value, *others: Value) -> Value:
     """Return K."""
     return stiffness
 
@@ -108,11 +108,6 @@ def smoothed_reaction(
     in_zone = np.maximum(stiffness, into) * drop * (share * (1.5 - scale)) * np.minimum(stiffness, into)
     inside = z < half_width + shift
     return where(inside, in_zone, stiffness * (z - shift)), where(inside, stiffness * drop * share, stiffness)
-
-
-def smoothed_steepest(z: Value, diameter: Value, stiffness: Value, half_width: Value, one_sided: Value) -> Value:
-    """Return K."""
-    return stiffness
 
 
 def zone_onset(stiffness: Value, half_width: Value, one_sided: Value) -> Value:
@@ -167,7 +162,7 @@ LINEAR = NormalLaw(
     acts_on="elements",
     parameters=(_STIFFNESS,),
     reaction=linear_reaction,
-    steepest=linear_steepest,
+    steepest=own_stiffness,
     plan=_AT_MEAN_DEPTH,
     equation="F = K z",
     source="definition of STIFFNESS=",
@@ -178,7 +173,7 @@ SMOOTHED = NormalLaw(
     acts_on="elements",
     parameters=(_STIFFNESS, _HALF_WIDTH, _ONE_SIDED),
     reaction=smoothed_reaction,
-    steepest=smoothed_steepest,
+    steepest=own_stiffness,
     onset=zone_onset,
     plan=_AT_MEAN_DEPTH,
     equation="F = K (z + h)^2 / (4 h) in the zone, K z beyond (CENTRED); K z^2 / (4 h), K (z - h) (ONE-SIDED)",
@@ -190,7 +185,7 @@ NODAL = NormalLaw(
     acts_on="nodes",
     parameters=(Parameter("stiffness", "F/L", "force per length of penetration of the node"), _HALF_WIDTH, _ONE_SIDED),
     reaction=smoothed_reaction,
-    steepest=smoothed_steepest,
+    steepest=own_stiffness,
     onset=zone_onset,
     plan=_planned_nodes,
     equation="as `smoothed`, at the node's own penetration",
