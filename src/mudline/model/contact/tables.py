@@ -256,7 +256,8 @@ def _normal_rows(laws: list[AssignedLaw]) -> tuple[list[NormalRows], FloatArray 
             starts += [law.start] * len(assigned.rows)
         elif isinstance(law, NormalLaw) and law.tables:
             index = assigned.columns[-1].astype(np.intp)
-            rows += [NormalRows(law, assigned.rows[index == each], (), each) for each in np.unique(index).tolist()]
+            curves = np.flatnonzero(np.bincount(index)).tolist()
+            rows += [NormalRows(law, assigned.rows[index == each], (), each) for each in curves]
         elif isinstance(law, NormalLaw):
             rows.append(NormalRows(law, assigned.rows, assigned.columns))
     if not starts:
