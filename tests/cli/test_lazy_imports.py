@@ -61,8 +61,8 @@ def test_keywords_that_a_deck_lacks_are_not_loaded(place: Place, other: str) -> 
 def test_evaluation_loads_only_what_the_deck_needs(place: Place) -> None:
     names = modules("evaluate", place(), "--output-format", "json")
     assert not names & {"rich", "matplotlib", "yaml", "scipy", "numba", "multiprocessing", "pyarrow"}
-    assert "mudline.model.contact.laws.curve" in names
-    assert "mudline.model.contact.laws.linear" not in names
+    assert "mudline.model.contact.laws.linear" in names
+    assert "mudline.model.contact.laws.suction" not in names
 
 
 def test_names_of_the_api_are_loaded_when_used() -> None:

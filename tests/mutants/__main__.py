@@ -2,7 +2,7 @@
 
 Each mutant (`operators.py`) is put into the functions of a process of its own, forked from one that has collected the
 tests of the package. There the tests run that reach its lines, the fastest first, until one fails: then it is killed.
-PACKAGE is a name of `PACKAGES` or a module of one, as `model/curves/points`.
+PACKAGE is a name of `PACKAGES` or a module of one, as `model/curves/backbones`.
 """
 
 from __future__ import annotations

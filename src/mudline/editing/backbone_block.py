@@ -17,7 +17,7 @@ from mudline.model.curves import CurveError, ForceCurve
 from mudline.model.curves.backbones import MODELS, Backbone, Soil
 
 if TYPE_CHECKING:
-    from mudline.model.curves.points import FloatArray
+    from mudline.model.curves import FloatArray
 
 FINEST, COARSEST = 1e-5, 0.1
 """Smallest and largest tolerance."""

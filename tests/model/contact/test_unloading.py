@@ -11,7 +11,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.model.contact import ContactModel, ContactState
-from mudline.model.contact.laws.curve import steepest_slope
+from mudline.model.contact.laws.linear import steepest_slope
 from mudline.model.contact.laws.unloading import UnloadingHistory
 from mudline.model.curves import ForceCurve
 from tests.helpers.builders.contact import CURVE, LINEAR, NONE, at_depths, chain, on

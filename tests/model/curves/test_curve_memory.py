@@ -8,8 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mudline.model.curves import ForceCurve
-from mudline.model.curves.points import FloatArray
+from mudline.model.curves import FloatArray, ForceCurve
 
 CURVES = {
     "few": ForceCurve([(0.0, 0.0), (0.1, 2.0), (0.3, 4.0), (0.5, 6.0)]),

@@ -74,6 +74,15 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
             yield Problem(STB001, message, where=where)
 
 
+def _release(law: SuctionLaw) -> Floats:
+    """Return |slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
+    from mudline.model.contact.laws.suction import suction_rates  # noqa: PLC0415 - most decks do without
+
+    with np.errstate(all="ignore"):
+        usable = (law.second_corner >= _SMALLEST_PART) & (law.second_corner <= _LARGEST_PART)
+        return np.where(usable & (law.regularisation > 0.0), suction_rates(law, law.regularisation)[1], np.nan)
+
+
 @rule(STB002, off=True)
 def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     """The fixed time step is coarse for the stiffest contact.

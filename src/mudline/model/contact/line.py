@@ -1,19 +1,23 @@
-"""Incidence of elements and nodes: values of nodes at the ends of elements, sums of element values at nodes.
-
-Along most lines an element runs from one node to the next, so that slices of arrays replace indices.
-"""
+"""Elements and nodes of lines: values of nodes at the ends of elements, sums at nodes, directions along the line."""
 
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from mudline.model.contact.arrays import FloatArray, IndexArray, SmallIndexArray
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray
+from mudline.model.contact.vectors import in_plane, turned, units
+
+if TYPE_CHECKING:
+    from mudline.model.contact.laws.friction import FrictionLaw
 
 
 class Incidence:
     """The elements (m, 2) among nodes (n).
+
+    Along most lines an element runs from one node to the next, so that slices of arrays replace indices.
 
     Attributes:
         ends: (m, 2) the nodes of the elements.
@@ -85,3 +89,41 @@ class Incidence:
                 sums += values[:, 1 + element]
             total[:, node] = sums
         return total
+
+
+class Directions(NamedTuple):
+    """Directions at nodes (n,) in one step.
+
+    Attributes:
+        axes: u1 and u2, each (n, 3).
+        follows: (n,) nodes whose directions turn with the line.
+        senses: (m, 2) sign of each element's direction at its two ends.
+        size: (n,) length of the projection of the sum of the elements' directions.
+    """
+
+    axes: tuple[FloatArray, FloatArray]
+    follows: BoolArray
+    senses: FloatArray
+    size: FloatArray
+
+
+def directions_of(line: Incidence, friction: FrictionLaw | None, points: FloatArray, normals: FloatArray) -> Directions:
+    """Return the directions of nodes at `points` (n, 3) with unit normals (n, 3)."""
+    with np.errstate(all="ignore"):
+        unit = units((points[line.second] - points[line.first]).T)
+        total = np.ascontiguousarray(line.sums(np.pad(unit, ((0, 0), (1, 1))), directed=True).T)
+        flat = total - (total * normals).sum(axis=1)[:, None] * normals
+        along = along_seabed(total, normals)
+        follows = np.ones(len(points), np.bool_)
+        if friction is not None and friction.turned.size:
+            there = tuple(normals[friction.turned].T)
+            along[friction.turned] = np.stack(turned(friction.cosine, friction.sine, there), axis=1)
+            follows[friction.turned] = False
+        senses = np.ones((len(line.first), 2))
+        senses[line.elements, line.sides] = line.senses
+    return Directions((along, np.cross(normals, along)), follows, senses, np.sqrt((flat * flat).sum(axis=1)))
+
+
+def along_seabed(vectors: FloatArray, normal: FloatArray) -> FloatArray:
+    """Return unit vectors (k, 3) along projections of vectors; the default direction for a vector along the normal."""
+    return np.stack(in_plane(tuple(vectors.T), tuple(normal.T)), axis=1)

@@ -49,7 +49,7 @@ def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines
     """Return the lines that elements (m, 2) with lengths (m,) form among `nodes` nodes."""
     ends = np.ascontiguousarray(element_nodes, np.intp)
     elements = len(ends)
-    parts = _in_order(ends, nodes) or _followed(ends, nodes)
+    parts = _followed(ends, nodes)
     of_element, of_node = np.zeros(elements, np.intp), np.full(nodes, -1, np.intp)
     element_arc, node_arc = np.zeros(elements), np.full(nodes, np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -62,26 +62,6 @@ def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines
             if closed:
                 node_arc[through[0]] = 0.0
     return Lines(of_element, of_node, element_arc, node_arc, [each for each, _ in parts], [each for _, each in parts])
-
-
-def _in_order(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]] | None:
-    """Return elements and nodes of each line if the elements of each are consecutive in the deck; else None."""
-    if not len(ends):
-        return []
-    first, second = ends.T
-    degree = np.bincount(ends.ravel(), minlength=nodes)
-    goes_on = (second[:-1] == first[1:]) & (degree[first[1:]] == 2)
-    starts = np.append(0, np.flatnonzero(~goes_on) + 1)
-    stops = np.append(starts[1:], len(ends))
-    closed = first[starts] == second[stops - 1]
-    ended = (degree[first[starts]] != 2) & (degree[second[stops - 1]] != 2)
-    if not (closed | ended).all():
-        return None
-    along = np.arange(len(ends))
-    return [
-        (along[start:stop], np.append(first[start:stop], second[stop - 1]))
-        for start, stop in zip(starts.tolist(), stops.tolist(), strict=True)
-    ]
 
 
 def _followed(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]]:

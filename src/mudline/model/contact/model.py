@@ -326,9 +326,8 @@ class ContactModel:
         complete = part.present is self._everywhere or bool(part.present.all())
         batch = StepBatch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid, complete)
         if self._tables.level is not None:
-            from mudline.model.contact.directions import lower  # noqa: PLC0415 - few trenches do
-
-            lower(self._tables, points, laid, part.normal, part.gap)
+            for place, normals, height in zip(points, part.normal, part.gap, strict=True):
+                np.add(height, self._tables.lowered(place, laid, normals)[0], out=height)
         after = state.following(spare, points[-1], laid) if self.plan.history else state
         if driver is None or not driver.run(batch, part, state, after):
             after.remember(state)

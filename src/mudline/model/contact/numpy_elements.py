@@ -17,12 +17,11 @@ from mudline.model.contact.arrays import (
     as_range,
     taken,
 )
-from mudline.model.contact.directions import mean_normal
 from mudline.model.contact.input import AssignedLaw
 from mudline.model.contact.laws import PathLaw, law_module
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.tables import ContactState, LawTables, NormalRows, arrays_of
-from mudline.model.contact.vectors import in_plane, units
+from mudline.model.contact.vectors import Components, in_plane, units
 
 if TYPE_CHECKING:
     from mudline.model.contact.laws.suction import SuctionHistory
@@ -38,14 +37,15 @@ class Work(NamedTuple):
 
     Attributes:
         planes: (3, steps, n) coordinates; empty if nothing moves sideways.
+        normal: components (steps, n) of the normals of the nodes, (1, 1) if all share one.
         load: half of the force of each element.
-        tangent: (c, steps, m + 2) components of the unit direction of each element; over a horizontal seabed only those
-            in its plane.
-        lateral: components of the lateral force of each element on each of its nodes.
+        tangent: (3, steps, m + 2) unit direction of each element; empty if nothing moves sideways.
+        lateral: (3, steps, m + 2) lateral force of each element on each of its nodes; empty without lateral springs.
         ratio: z/D of each element; empty if no node needs it.
     """
 
     planes: FloatArray
+    normal: Components
     load: FloatArray
     tangent: FloatArray
     lateral: FloatArray
@@ -98,7 +98,10 @@ class ElementLaws:
 
     def run(self, batch: StepBatch, part: ContactResult, state: ContactState, work: Work) -> None:
         """Write the elements of a batch, and their values for the nodes."""
-        depth, contact = self._write_depths(part)
+        depth, contact = part.depth, part.contact  # of NaN where there is no seabed
+        np.subtract(0.0, self._of_elements(part.gap), out=depth)
+        np.divide(depth, self._tables.diameter, out=part.ratio)
+        np.greater(depth, self._onset, out=contact)
         values = part.force, part.slope, part.stiffness
         trench = None
         if self._unloading is not None and state.unloading is not None:
@@ -119,9 +122,10 @@ class ElementLaws:
             work.ratio[:, _INNER] = part.ratio
         if not len(work.tangent):
             return
-        along = self._write_directions(work)
+        first, second = self._ends(work)
+        work.tangent[..., _INNER] = along = units(second - first)
         if self._lateral is not None and state.touchdown is not None:
-            self._apply_lateral(self._lateral, along, contact, part, state.touchdown, work)
+            self._apply_lateral(self._lateral, along, contact, state.touchdown, work)
 
     def _of_elements(self, values: FloatArray) -> FloatArray:
         """Return the means (steps, m) of values (steps, n) at both ends; halves first: their sum cannot overflow."""
@@ -129,14 +133,6 @@ class ElementLaws:
         mean: FloatArray = 0.5 * first
         mean += 0.5 * second
         return mean
-
-    def _write_depths(self, part: ContactResult) -> tuple[FloatArray, BoolArray]:
-        """Write depth, ratio and contact from the gaps of the nodes; NaN where there is no seabed."""
-        depth, contact = part.depth, part.contact
-        np.subtract(0.0, self._of_elements(part.gap), out=depth)
-        np.divide(depth, self._tables.diameter, out=part.ratio)
-        np.greater(depth, self._onset, out=contact)
-        return depth, contact
 
     def _apply_normal_laws(
         self, depth: FloatArray, touches: BoolArray, values: Values, part: ContactResult, paths: FloatArray | None
@@ -215,9 +211,8 @@ class ElementLaws:
         for rows, at, diameter in self._normal:
             here = taken(z, at)
             if rows.curve >= 0:
-                from mudline.model.contact.laws.curve import steepest_slope  # noqa: PLC0415 - only now is it needed
-
-                steepest = steepest_slope(self._tables.given.curves[rows.curve], here / diameter) / diameter
+                curve = self._tables.given.curves[rows.curve]
+                steepest = law_module("linear").steepest_slope(curve, here / diameter) / diameter
             else:
                 steepest = rows.law.steepest(here, diameter, *rows.columns)
             slopes[:, at] = steepest
@@ -296,26 +291,21 @@ class ElementLaws:
         shape = *work.planes.shape[:2], first.shape[1]
         return first.reshape(shape), second.reshape(shape)
 
-    def _write_directions(self, work: Work) -> FloatArray:
-        """Write the unit directions of the elements; return the components that `work` has."""
-        first, second = self._ends(work)
-        directions = units(second - first)[3 - len(work.tangent) :]
-        work.tangent[..., _INNER] = directions
-        return directions
-
     def _apply_lateral(
         self,
         some: _Subset,
         along: FloatArray,
         contact: BoolArray,
-        part: ContactResult,
         touchdown: FloatArray,
         work: Work,
     ) -> None:
         """Write the forces of lateral springs; update their touchdown points from step to step."""
-        plane = vectors.PLANES[len(along)]
-        normal = mean_normal(self._tables, some.elements, part.normal)
-        across = plane.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
+        normal = work.normal
+        if normal[0].shape[1] > 1:
+            line, ends = self._tables.line, some.elements
+            sides = line.first[ends], line.second[ends]
+            normal = vectors.mean_normal(*(tuple(axis[:, side] for axis in normal) for side in sides))
+        across = vectors.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
         touches = taken(contact, some.at)
         start, end = self._ends(work)
         middle = 0.5 * start[..., some.at] + 0.5 * end[..., some.at]
@@ -325,8 +315,7 @@ class ElementLaws:
             new, down = touch & ~down, touch
             held[:, step] = kept = np.where(new, middle[:, step], kept)
         touchdown[...] = np.where(down, kept, np.nan).T
-        first = 3 - len(along)
-        force = law_module("linear").lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
+        force = law_module("linear").lateral_force(some.columns[0], vectors.dot(across, middle - held))
         force = np.where(touches, force, 0.0)
         for target, axis in zip(work.lateral, across, strict=True):
             target[:, _INNER][:, some.at] = axis * force

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
-from mudline.model.contact.laws import NormalLaw, PathLaw
-from mudline.model.contact.line import Incidence
+from mudline.model.contact.laws import NormalLaw, PathLaw, law_module
+from mudline.model.contact.line import Incidence, directions_of
 from mudline.model.contact.seabed import heading
 
 if TYPE_CHECKING:
@@ -166,8 +166,8 @@ class LawTables:
         self.diameter = given.diameter
         onset = given.onset()
         self.onset: FloatArray | None = onset if onset.any() else None
-        self.normal, self._paths = _with_paths([rows for law in given.normal_laws for rows in _normal_rows(law)])
-        self.nodal = [rows for law in given.nodal_laws for rows in _normal_rows(law)]
+        self.normal, self._paths = _normal_rows(given.normal_laws)
+        self.nodal, _ = _normal_rows(given.nodal_laws)
         self.unloading, self.springs, self.suction = map(given.assigned.get, ("unloading", "suction spring", "suction"))
         self.damping = _coefficients(given, "damping", len(self.half))
         self.nodal_damping = _coefficients(given, "nodal damping", len(given.node_ids))
@@ -222,6 +222,15 @@ class LawTables:
             self._laid = kept = (laid, LaidCentreline(laid, self.line))
         return kept[1]
 
+    def lowered(self, points: FloatArray, laid: FloatArray, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return depth and gradient of trenches below nodes at `points` (n, 3); TypeError if none lowers the seabed."""
+        from mudline.model.contact.trenches import level_at  # noqa: PLC0415 - few trenches do
+
+        if self.level is None:
+            raise TypeError("no trench lowers the seabed")
+        lateral = directions_of(self.line, self.friction, points, normal).axes[1]
+        return level_at(self.level, self.laid_line(laid), points, lateral)
+
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""
         count = {"elements": len(self.half), "nodes": len(self.given.node_ids)}
@@ -233,33 +242,30 @@ class LawTables:
         return ContactState(paths=None if self._paths is None else self._paths.copy(), **histories)
 
 
-def _normal_rows(assigned: AssignedLaw) -> list[NormalRows]:
-    """Return the rows of a normal law; a law with curves has one entry for each curve."""
-    law = assigned.law
-    if not isinstance(law, NormalLaw):
-        return []
-    if not law.tables:
-        return [NormalRows(law, assigned.rows, assigned.columns)]
-    index = assigned.columns[-1].astype(np.intp)
-    return [
-        NormalRows(law, assigned.rows[index == each], (), each) for each in np.flatnonzero(np.bincount(index)).tolist()
-    ]
+def _normal_rows(laws: list[AssignedLaw]) -> tuple[list[NormalRows], FloatArray | None]:
+    """Return the rows of normal laws, and the memory (k, c) of elements on a path before the first step, if any.
 
-
-def _with_paths(normal: list[NormalRows]) -> tuple[list[NormalRows], FloatArray | None]:
-    """Return normal laws with their places in the memory of elements on a path, and its initial values (k, c)."""
-    starts = [rows.law.start for rows in normal if isinstance(rows.law, PathLaw) for _ in rows.rows]
+    A law with curves has one entry for each curve.
+    """
+    rows: list[NormalRows] = []
+    starts: list[tuple[float, ...]] = []
+    for assigned in laws:
+        law = assigned.law
+        if isinstance(law, PathLaw):
+            rows.append(NormalRows(law, assigned.rows, assigned.columns, path=len(starts)))
+            starts += [law.start] * len(assigned.rows)
+        elif isinstance(law, NormalLaw) and law.tables:
+            index = assigned.columns[-1].astype(np.intp)
+            curves = np.flatnonzero(np.bincount(index)).tolist()
+            rows += [NormalRows(law, assigned.rows[index == each], (), each) for each in curves]
+        elif isinstance(law, NormalLaw):
+            rows.append(NormalRows(law, assigned.rows, assigned.columns))
     if not starts:
-        return normal, None
-    memory, placed, first = np.zeros((len(starts), max(map(len, starts)))), [], 0
-    for rows in normal:
-        if isinstance(rows.law, PathLaw):
-            memory[first : first + len(rows.rows), : len(rows.law.start)] = rows.law.start
-            placed.append(rows._replace(path=first))
-            first += len(rows.rows)
-        else:
-            placed.append(rows)
-    return placed, memory
+        return rows, None
+    memory = np.zeros((len(starts), max(map(len, starts))))
+    for held, start in zip(memory, starts, strict=True):
+        held[: len(start)] = start
+    return rows, memory
 
 
 def _coefficients(given: ContactInput, name: str, count: int) -> FloatArray | None:
@@ -325,9 +331,8 @@ def steepest_anywhere(tables: LawTables, rows: NormalRows) -> FloatArray:
     """Return the largest stiffness (k,) that a normal law can reach on its elements or nodes."""
     with np.errstate(all="ignore"):  # an overflow is refused at the step where it occurs
         if rows.curve >= 0:
-            from mudline.model.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
-
-            slopes: FloatArray = steepest_slopes(tables.given.curves[rows.curve]).max() / tables.diameter[rows.rows]
+            steepest: FloatArray = law_module("linear").steepest_slopes(tables.given.curves[rows.curve])
+            slopes: FloatArray = steepest.max() / tables.diameter[rows.rows]
             return slopes
         diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
         stiffness = rows.law.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)

@@ -15,13 +15,13 @@ import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.model.contact.directions import Directions, directions_of, level, projected
-from mudline.model.contact.laws import Moving, PathLaw
+from mudline.model.contact.laws import Moving, PathLaw, law_module
+from mudline.model.contact.line import Directions, along_seabed, directions_of
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.tables import ContactState, LawTables
 
 if TYPE_CHECKING:
-    from mudline.model.contact.laws.friction import ExtraLimit, FrictionForce, FrictionLaw
+    from mudline.model.contact.laws.friction import ExtraLimit, FrictionLaw
 
 
 class Triples(NamedTuple):
@@ -80,6 +80,10 @@ class _BlockSum:
         )
 
 
+Heights = tuple[FloatArray, FloatArray]
+"""Derivatives of normal forces by the heights of elements (m,) and of nodes (n,)."""
+
+
 class _Step(NamedTuple):
     """Common data of the parts of a tangent.
 
@@ -119,7 +123,7 @@ def assemble(
     normal = np.asarray(result.normal)
     slope, laid = normal, points if states[0].laid is None else states[0].laid
     if tables.level is not None:
-        slope = normal + level(tables, points, laid, normal).gradient
+        slope = normal + tables.lowered(points, laid, normal)[1]
     step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
     stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
     by_position, by_velocity = _BlockSum(nodes), _BlockSum(nodes)
@@ -131,34 +135,18 @@ def assemble(
     if tables.lateral is not None:
         _add_lateral(step, by_position)
     if tables.friction is not None:
-        sliding = _friction_of(step)
-        closed = np.flatnonzero((result.friction_state_of(0) > 0) & (result.normal_force > 0.0))
-        axes = np.stack(sliding.directions.axes, axis=1)
-        push = np.einsum("nij,ni->nj", axes, sliding.friction.by_compression)
-        _add_springs(axes, sliding, closed, by_position)
-        _add_turning(step, sliding, closed, by_position)
-        _add_compression(step, push, closed, (stiffness, own), step.slope, by_position)
-        _add_compression(step, push, closed, (damping, own_damping), normal, by_velocity)
+        _add_friction(step, (stiffness, own), (damping, own_damping), by_position, by_velocity)
     return Tangent(by_position.triples(), by_velocity.triples())
-
-
-_AWAY = 2.0**-40
-"""Relative size of a test increment of the penetration: small for the stiffness, large against rounding of forces."""
 
 
 def _turned_round(step: _Step) -> FloatArray:
     """Return the stiffness (m,) of an increment opposite to the last, for elements whose force follows a path."""
     stiffness, paths = step.result.stiffness.copy(), step.after.paths
     for rows in step.tables.normal:
-        law = rows.law
-        if paths is None or not isinstance(law, PathLaw):
-            continue
-        count = len(law.start)
-        now = tuple(paths[rows.path : rows.path + len(rows.rows), :count].T)
-        turns = law.begin(np.nextafter(now[0], np.inf), now)[2] != now[2]  # deeper would be a reversal
-        z = now[0] * np.where(turns, 1.0 + _AWAY, 1.0 - _AWAY)
-        turned = law.advance(z, step.tables.diameter[rows.rows], law.begin(z, now), rows.columns)[1]
-        stiffness[rows.rows] = np.where(step.result.contact[rows.rows], turned, stiffness[rows.rows])
+        if paths is not None and isinstance(rows.law, PathLaw):
+            held = paths[rows.path : rows.path + len(rows.rows)]
+            turned = rows.law.turned_round(held, step.tables.diameter[rows.rows], rows.columns)
+            stiffness[rows.rows] = np.where(step.result.contact[rows.rows], turned, stiffness[rows.rows])
     return stiffness
 
 
@@ -190,7 +178,7 @@ def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
     return damping, own
 
 
-def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: FloatArray, blocks: _BlockSum) -> None:
+def _add_normal(step: _Step, by_height: Heights, slope: FloatArray, blocks: _BlockSum) -> None:
     """Add normal forces along fixed normals, from derivatives by the heights of elements (m,) and of nodes (n,)."""
     stiffness, own = by_height
     used = np.flatnonzero(stiffness)
@@ -214,20 +202,16 @@ def _add_lateral(step: _Step, blocks: _BlockSum) -> None:
     mean = step.normal[first] + step.normal[second]
     mean = mean / _size(mean)[:, None]
     span = step.points[second] - step.points[first]
-    across = np.cross(mean, projected(_unit(span)[0], mean))
+    across = np.cross(mean, along_seabed(_unit(span)[0], mean))
     arm = 0.5 * step.points[first] + 0.5 * step.points[second] - after[rows]
-    turn = _turning(span, mean)  # of n x t by the second end, minus that by the first
-    force = -stiffness * np.einsum("ki,ki->k", across, arm)
-    for by, sign in ((first, -1.0), (second, 1.0)):
-        by_place = 0.5 * across + sign * np.einsum("ki,kij->kj", arm, turn)
-        slope = (0.0 - stiffness)[:, None] * by_place
-        block = _outer(across, slope) + force[:, None, None] * sign * turn
+    blocks_by = law_module("linear").lateral_tangent(stiffness, across, arm, _turning(span, mean))
+    for by, block in zip((first, second), blocks_by, strict=True):
         for at in (first, second):
             blocks.add(at, by, block)
 
 
 def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
-    """Return the derivative (k, 3, 3) by the end of `span` (k, 3) of the unit vector n x t, t the projected span."""
+    """Return the derivative (k, 3, 3) by `span` (k, 3) of the unit vector n x t, t the projected span."""
     flat = span - np.einsum("ki,ki->k", span, normal)[:, None] * normal
     along, size = _unit(flat)
     # an element without direction has the default direction, which does not turn
@@ -236,43 +220,37 @@ def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
     return 0.0 - _outer(along, across) / np.where(size > 0.0, size, 1.0)[:, None, None]
 
 
-class _Sliding(NamedTuple):
-    """Friction of one step at nodes (n,).
-
-    Attributes:
-        directions: u1, u2 and how they turn.
-        friction: forces along u1 and u2 with derivatives.
-        extra: changes of the lateral limit by trenches and breakouts; None without them.
-    """
-
-    directions: Directions
-    friction: FrictionForce
-    extra: ExtraLimit | None
-
-
-def _friction_of(step: _Step) -> _Sliding:
+def _add_friction(
+    step: _Step, by_height: Heights, damping: Heights, by_position: _BlockSum, by_velocity: _BlockSum
+) -> None:
+    """Add friction, which depends on the normal forces; these have derivatives by the heights of elements and nodes."""
     from mudline.model.contact.laws.friction import slide  # noqa: PLC0415 - only now is it needed
 
     tables, law, history = step.tables, step.tables.friction, step.before.friction
+    if law is None or history is None:
+        raise TypeError("the state has no friction: it belongs to another model")
     absent = np.isnan(step.result.gap)
     places = np.where(absent[:, None], 0.0, step.points)
     compression = np.where(absent, 0.0, step.result.normal_force)
-    directions = directions_of(tables, step.points, step.normal)
-    extra = None
-    if law is None or history is None:
-        raise TypeError("the state has no friction: it belongs to another model")
+    directions = directions_of(tables.line, law, step.points, step.normal)
+    friction, extra = slide(law, history, places, directions.axes, compression), None
     if tables.trench is not None:
         from mudline.model.contact.trenches import added_limit  # noqa: PLC0415 - most friction has no trench
 
-        laid = step.points if step.before.laid is None else step.before.laid
-        trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
-        pressed = np.maximum(compression, 0.0)
-        extra = added_limit(tables.trench, tables.laid_line(laid), places, directions.axes, pressed, trial > 0.0)
+        laid = tables.laid_line(step.points if step.before.laid is None else step.before.laid)
+        pressed, forward = np.maximum(compression, 0.0), friction.elongation[:, 1] > 0.0
+        extra = added_limit(tables.trench, laid, places, directions.axes, pressed, forward)
     if tables.breakout is not None:
         law, extra = _breaking_out(step, law, directions, places, compression, extra)
-        trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
-        extra.outward[tables.breakout.rows] = np.sign(trial[tables.breakout.rows])
-    return _Sliding(directions, slide(law, history, places, directions.axes, compression, extra), extra)
+        extra.outward[tables.breakout.rows] = np.sign(friction.elongation[tables.breakout.rows, 1])
+    if extra is not None:
+        friction = slide(law, history, places, directions.axes, compression, extra)
+    by_place, push, turned = friction.tangent(directions.axes, extra)
+    closed = np.flatnonzero((step.result.friction_state_of(0) > 0) & (step.result.normal_force > 0.0))
+    by_position.add(closed, closed, by_place[closed])
+    _add_turning(step, directions, turned, closed, by_position)
+    _add_compression(step, push, closed, by_height, step.slope, by_position)
+    _add_compression(step, push, closed, damping, step.normal, by_velocity)
 
 
 def _breaking_out(
@@ -284,7 +262,6 @@ def _breaking_out(
     extra: ExtraLimit | None,
 ) -> tuple[FrictionLaw, ExtraLimit]:
     """Return the law with softened springs, and the breakout as a negative extra limit; embedments are held."""
-    from mudline.model.contact.laws.breakout import shares  # noqa: PLC0415 - most friction has no breakout
     from mudline.model.contact.laws.friction import ExtraLimit  # noqa: PLC0415 - only now is it needed
 
     rows = step.tables.breakout
@@ -292,41 +269,31 @@ def _breaking_out(
         raise TypeError("the state has no breakout: it belongs to another model")
     nodes, (first, second) = rows.rows, (axis[rows.rows] for axis in directions.axes)
     extra = extra or ExtraLimit.none(len(places))
-    far, deep = step.after.breakout[3:]
-    share, fall, softer = shares(far, deep, rows.columns)
     away = places[nodes] - step.after.breakout[:3].T
-    distance = (away * second).sum(axis=1)
-    grows = np.isfinite(distance) & (far > step.before.breakout[3])
     coefficient = law.coefficients[nodes, 1]
     pressed = coefficient * np.maximum(compression[nodes], 0.0)
+    so_far, (far, deep) = step.before.breakout[3], step.after.breakout[3:]
+    share, by_distance, softer = law_module("breakout").tangent(
+        so_far, (far, deep), (away * second).sum(axis=1), pressed, rows.columns
+    )
     extra.force[nodes], extra.by_normal_force[nodes] = pressed * (share - 1.0), coefficient * (share - 1.0)
-    extra.by_offset[nodes] = np.where(grows, 0.0 - pressed * fall * np.sign(distance), 0.0)
-    extra.gradient[nodes] = second
-    extra.by_angle[nodes] = np.where(grows, -(away * first).sum(axis=1), 0.0)
+    extra.by_offset[nodes], extra.gradient[nodes] = by_distance, second
+    extra.by_angle[nodes] = -(away * first).sum(axis=1)
     mobilisation = law.mobilisation.copy()
     mobilisation[nodes, 1] /= softer
     return replace(law, mobilisation=mobilisation), extra
-
-
-def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _BlockSum) -> None:
-    """Add springs along u1 and u2, and limits that depend on the offset in a trench."""
-    along = np.einsum("nij,njk->nik", sliding.friction.by_position, axes)
-    if sliding.extra is not None:
-        along += sliding.friction.by_offset[:, :, None] * sliding.extra.gradient[:, None, :]
-    own = np.einsum("nij,nik->njk", axes, along)
-    blocks.add(closed, closed, own[closed])
 
 
 def _add_compression(
     step: _Step,
     push: FloatArray,
     closed: IndexArray,
-    stiffness: tuple[FloatArray, FloatArray],
+    by_height: Heights,
     slope: FloatArray,
     blocks: _BlockSum,
 ) -> None:
     """Add the dependence of the limits on the normal force: `push` (n, 3) is d friction / d N."""
-    elements, own = stiffness
+    elements, own = by_height
     blocks.add(closed, closed, -own[closed, None, None] * _outer(push[closed], slope[closed]))
     held = _marked(closed, len(own))
     for at in step.ends.T:
@@ -336,28 +303,19 @@ def _add_compression(
             blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], slope[by]))
 
 
-def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _BlockSum) -> None:
-    """Add the turning of u1 and u2 with the line: directions of forces, elongations and offsets.
-
-    A turn by an angle a about the normal makes d u1 = a u2, d u2 = -a u1.
-    """
-    first, second = sliding.directions.axes
-    by_angle = np.stack([sliding.friction.elongation[:, 1], 0.0 - sliding.friction.elongation[:, 0]], axis=1)
-    change = np.einsum("nij,nj->ni", sliding.friction.by_position, by_angle)
-    if sliding.extra is not None:
-        change += sliding.friction.by_offset * sliding.extra.by_angle[:, None]
-    turned = change[:, 0, None] * first + change[:, 1, None] * second
-    turned += sliding.friction.force[:, 0, None] * second - sliding.friction.force[:, 1, None] * first
-    held = _marked(closed, len(step.points)) & sliding.directions.follows
-    start, end = step.ends.T
+def _add_turning(
+    step: _Step, directions: Directions, turned: FloatArray, closed: IndexArray, blocks: _BlockSum
+) -> None:
+    """Add the turning of u1 and u2 with the line; `turned` (n, 3) is d friction by a turn about the normal."""
+    held = _marked(closed, len(step.points)) & directions.follows
+    second, (start, end) = directions.axes[1], step.ends.T
     span = step.points[end] - step.points[start]
     unit, length = _unit(span)
-    size = sliding.directions.size
     for side, at in enumerate((start, end)):
-        used = np.flatnonzero(held[at] & (length > 0.0) & (size[at] > 0.0))
+        used = np.flatnonzero(held[at] & (length > 0.0) & (directions.size[at] > 0.0))
         node = at[used]
         sideways = second[node] - np.einsum("ni,ni->n", second[node], unit[used])[:, None] * unit[used]
-        angle = sideways * (sliding.directions.senses[used, side] / (length[used] * size[node]))[:, None]
+        angle = sideways * (directions.senses[used, side] / (length[used] * directions.size[node]))[:, None]
         block = _outer(turned[node], angle)
         blocks.add(node, end[used], block)
         blocks.add(node, start[used], 0.0 - block)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput, ElementError
 from mudline.model.contact.laws.friction import ExtraLimit
 from mudline.model.contact.laws.trench import (
@@ -14,13 +14,11 @@ from mudline.model.contact.laws.trench import (
     PEAK,
     TABLE,
     WALL,
-    in_table,
+    TrenchRows,
     lowered,
-    on_wall,
-    peak_share,
-    peak_slope,
+    resistance,
     share_of_piece,
-    table_row,
+    slopes,
     table_rows,
     wall_coefficient,
 )
@@ -28,35 +26,6 @@ from mudline.model.contact.line import Incidence
 from mudline.model.contact.vectors import LEAST_SQUARE
 
 _ENDS = ("start_y", "start_z", "end_y", "end_z")
-
-
-class TrenchRows(NamedTuple):
-    """Trenches of nodes for the lateral limits: a row (k,) for each trench that a node lies in.
-
-    Attributes:
-        nodes: (k,) indices of nodes, ascending.
-        start: (n + 1,) rows start[i] to start[i + 1] belong to node i.
-        kind: PEAK, WALL or TABLE.
-        inner, outer: half widths.
-        steepness: 1 over half of the difference of the half widths.
-        amount: peak force, coefficient of the normal force on the wall, or half length for a table.
-        table: index of the table, -1 for none.
-        line: row in `lines` of a straight centreline; -1 for the line as laid.
-        lines: (c, 4) place and direction (Y, Z) of each straight centreline.
-        tables: (rows, 2) offsets and resistances of each table.
-    """
-
-    nodes: IndexArray
-    start: IndexArray
-    kind: StateArray
-    inner: FloatArray
-    outer: FloatArray
-    steepness: FloatArray
-    amount: FloatArray
-    table: SmallIndexArray
-    line: SmallIndexArray
-    lines: FloatArray
-    tables: tuple[FloatArray, ...]
 
 
 def trench_rows(given: ContactInput, friction: FloatArray, kinds: tuple[int, ...] = (PEAK, WALL, TABLE)) -> TrenchRows:
@@ -94,7 +63,7 @@ def trench_rows(given: ContactInput, friction: FloatArray, kinds: tuple[int, ...
         rows[:, 4].astype(np.int32),
         rows[:, 5].astype(np.int32),
         np.ascontiguousarray(np.column_stack([lines[:, :2], direction])),
-        given.tables,
+        tuple(map(table_rows, given.tables)),
     )
 
 
@@ -235,13 +204,13 @@ class LaidCentreline:
             inverse = np.where(square > LEAST_SQUARE, 1.0 / square, 0.0)
         pieces = np.pad(np.concatenate([start, span, inverse[None]]), ((0, 0), (0, 1)))
         self.start, self.span, self.inverse = pieces[:3], pieces[3:6], pieces[6]
-        self._kept: dict[int, Beside] = {}
+        self._kept: dict[int, tuple[TrenchRows, Beside]] = {}
 
     def beside(self, trench: TrenchRows) -> Beside:
         """Return the pieces next to the nodes of some trenches, computed once."""
-        if (beside := self._kept.get(id(trench))) is None:
-            beside = self._kept[id(trench)] = self._pieces_beside(trench)
-        return beside
+        if id(trench) not in self._kept:  # kept with them: while they live no other trenches have their id
+            self._kept[id(trench)] = trench, self._pieces_beside(trench)
+        return self._kept[id(trench)][1]
 
     def _pieces_beside(self, trench: TrenchRows) -> Beside:
         nodes, straight = trench.nodes, trench.line >= 0
@@ -321,58 +290,16 @@ def _foot(points: FloatArray, piece: _Pieces) -> tuple[FloatArray, FloatArray, F
     return share, away, squares[0] + squares[1] + squares[2]
 
 
-def resistance(trench: TrenchRows, offset: FloatArray, normal_force: FloatArray) -> FloatArray:
-    """Return the lateral resistance of each row (steps, k) at its offset under a normal force."""
-    distance = np.abs(offset)
-    force = trench.amount * peak_share(distance, trench.inner, trench.outer, trench.steepness)
-    walls = trench.kind == WALL
-    on = on_wall(distance, trench.inner, trench.outer)
-    force = np.where(walls, trench.amount * normal_force * on, force)
-    for index in np.unique(trench.table[trench.kind == TABLE]).tolist():
-        here = (trench.kind == TABLE) & (trench.table == index)
-        force[:, here] = trench.amount[here] * tabulated(trench.tables[index], distance[:, here])
-    return np.asarray(force)
-
-
-def tabulated(table: FloatArray, distance: FloatArray) -> FloatArray:
-    """Return the resistance per unit length of a table (rows, 2) at distances from the centreline."""
-    columns = table_rows(table)
-    row = table_row(columns, distance)
-    held = np.minimum(np.maximum(distance, columns[0][0]), columns[0][-1])
-    return np.asarray(in_table(held, *(column[row] for column in columns)))
-
-
-def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return derivatives of `resistance` by the distance and by the normal force, (k,) each, for one step."""
-    distance = np.abs(offset)
-    kind, inner, outer, amount = trench.kind, trench.inner, trench.outer, trench.amount
-    by_distance = np.where(kind == PEAK, amount * peak_slope(distance, inner, outer), 0.0)
-    by_normal = np.where(kind == WALL, amount * on_wall(distance, inner, outer), 0.0)
-    for index in np.unique(trench.table[kind == TABLE]).tolist():
-        here: BoolArray = (kind == TABLE) & (trench.table == index)
-        columns = table_rows(trench.tables[index])
-        row = table_row(columns, distance[here])
-        bent = columns[2][row] + 2.0 * columns[3][row] * (np.minimum(distance[here], columns[0][-1]) - columns[0][row])
-        slope = np.where(distance[here] < columns[0][0], 0.0, bent)
-        by_distance[here] = amount[here] * slope
-    return by_distance, by_normal
-
-
-class Lowered(NamedTuple):
-    """Depth (n,) by which the seabed is lowered at nodes, and its gradient (n, 3) with u2 held."""
-
-    depth: FloatArray
-    gradient: FloatArray
-
-
-def level_at(trench: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray) -> Lowered:
-    """Return depth and gradient of the trenches below nodes at `points` (n, 3) with u2 (n, 3)."""
-    total = Lowered(np.zeros(len(points)), np.zeros(points.shape))
-    _, offset, gradient = _offsets(trench, line, points, lateral)
+def level_at(
+    trench: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return the depth (n,) by which trenches lower the seabed at `points` (n, 3), and its gradient (n, 3), u2 held."""
+    depth, gradient = np.zeros(len(points)), np.zeros(points.shape)
+    _, offset, by_place = _offsets(trench, line, points, lateral)
     share, slope = lowered(np.abs(offset), trench.inner, trench.outer)
-    np.add.at(total.depth, trench.nodes, trench.amount * share)
-    np.add.at(total.gradient, trench.nodes, (trench.amount * slope * np.sign(offset))[:, None] * gradient)
-    return total
+    np.add.at(depth, trench.nodes, trench.amount * share)
+    np.add.at(gradient, trench.nodes, (trench.amount * slope * np.sign(offset))[:, None] * by_place)
+    return depth, gradient
 
 
 def _offsets(

@@ -22,23 +22,17 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mudline.basics.arguments import expect
+from mudline.basics.arguments import as_array, expect, read_only
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.short_repr import counted, cut
-from mudline.model.curves.points import (
-    CurveError,
-    FloatArray,
-    IndexArray,
-    checked_points,
-    difference_quotient,
-    read_only,
-    real_numbers,
-)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 __all__ = ["CurveError", "ForceCurve"]
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.intp]
 
 BLOCK = 32768
 """Numbers evaluated at a time, so that work arrays stay in the second-level cache."""
@@ -46,6 +40,25 @@ _COUNTED_POINTS = 60
 """Number of points up to which comparing with each point is faster than a binary search."""
 _RATIOS_PER_POINT = 50
 """Number of ratios per point below which a binary search is faster."""
+_NORMAL = float(np.finfo(np.float64).tiny)
+
+
+class CurveError(ValueError):
+    """Points that do not make a curve.
+
+    Attributes:
+        code: rule code of the fault: `SYN002` (a number that is not finite), `CRV001` (fewer than two distinct points),
+            `CRV003` (two forces at one ratio), `CRV011` (a width or a slope that a float64 cannot hold).
+        index: the wrong point in the order given, from 0; of two points the later one; -1 for the whole curve.
+    """
+
+    def __init__(self, code: str, index: int, message: str) -> None:
+        super().__init__(message)
+        self.code = code
+        self.index = index
+
+    def __reduce__(self) -> tuple[type[CurveError], tuple[str, int, str]]:
+        return type(self), (self.code, self.index, str(self))
 
 
 class ForceCurve:
@@ -75,7 +88,7 @@ class ForceCurve:
             ValueError: `points` are not pairs of real numbers.
         """
         expect(name, "name", (str, NoneType), "a str or None")
-        ratios, forces, slopes = (read_only(array) for array in checked_points(points))
+        ratios, forces, slopes = (read_only(array) for array in _checked_points(points))
         fields = {
             "name": name,
             "ratios": ratios,
@@ -98,7 +111,7 @@ class ForceCurve:
             ValueError: a ratio is NaN or infinite, or the force there overflows; or `ratios` are not real numbers, or
                 `out` does not fit.
         """
-        query = real_numbers(ratios, "ratios")
+        query = _real_numbers(ratios, "ratios")
         force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
         # results may overwrite ratios that an error message needs
         replaced = out is not None and any(np.may_share_memory(query, array) for array in out)
@@ -176,7 +189,7 @@ class ForceCurve:
         Raises:
             ValueError: `force` is NaN or infinite.
         """
-        if (shape := real_numbers(force, "force").shape) != ():
+        if (shape := _real_numbers(force, "force").shape) != ():
             raise ValueError(f"force must be one number, not an array of shape {shape}")
         if not np.isfinite(force):
             raise ValueError(f"no ratio has the force {force}")
@@ -190,7 +203,7 @@ class ForceCurve:
         segment = np.flatnonzero(((low < force) & (force < high)) | ((high < force) & (force < low)))
         middle = 0.5 * low[segment] + 0.5 * high[segment]
         near = segment + ((force > middle) == (high[segment] > low[segment]))
-        offset = difference_quotient(np.float64(force), self.forces[near], self.slopes[segment])
+        offset = _difference_quotient(np.float64(force), self.forces[near], self.slopes[segment])
         ratio: FloatArray = np.clip(self.ratios[near] + offset, self.ratios[segment], self.ratios[segment + 1])
         return ratio
 
@@ -200,7 +213,7 @@ class ForceCurve:
         for end, outward in ((0, -1.0), (-1, 1.0)):
             rise = outward * self.slopes[end]
             if (rise > 0.0 and force > self.forces[end]) or (rise < 0.0 and force < self.forces[end]):
-                offset = difference_quotient(np.float64(force), self.forces[end], self.slopes[end])
+                offset = _difference_quotient(np.float64(force), self.forces[end], self.slopes[end])
                 with np.errstate(over="ignore"):
                     ratio = self.ratios[end] + offset
                 if np.isfinite(ratio):
@@ -257,6 +270,106 @@ class ForceCurve:
         return html_page("ForceCurve", summary, html_line(self.ratios.tolist(), self.forces.tolist()), table)
 
 
+def _real_numbers(values: ArrayLike, what: str) -> NDArray[np.generic]:
+    """Return `values` as an array of booleans, integers or floats.
+
+    Raises:
+        ValueError: they are something else; `what` is their name in the message.
+    """
+    array: NDArray[np.generic] = as_array(values, what)
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{what} must be real numbers, not {array.dtype}")
+    return array
+
+
+def _checked_points(points: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return sorted ratios (n,) and forces (n,) without repeats, n >= 2, and the slopes (n - 1,), each 0 or normal.
+
+    Raises:
+        CurveError: the points do not make a curve.
+        ValueError: the points are not pairs of real numbers.
+    """
+    pairs = _pairs(points)
+    order = np.arange(len(pairs))
+    if np.count_nonzero(pairs[1:, 0] > pairs[:-1, 0]) < len(pairs) - 1:
+        order = pairs[:, 0].argsort(kind="stable")
+        order = order[_first_of_each_ratio(pairs, order)]
+    if len(order) < 2:
+        raise CurveError("CRV001", -1, f"a curve needs two distinct points or more, not {len(order)}")
+    ratios, forces = pairs[:, 0].take(order), pairs[:, 1].take(order)
+    return ratios, forces, _slopes(ratios, forces, order)
+
+
+def _pairs(points: ArrayLike) -> FloatArray:
+    """Return the points as an (n, 2) float64 array, every number finite, no negative zeros."""
+    array = _real_numbers(points, "points")
+    if array.size == 0:
+        return np.empty((0, 2))
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ValueError(f"points must be pairs (ratio, force), not an array of shape {array.shape}")
+    with np.errstate(over="ignore"):
+        pairs = array.astype(np.float64) + 0.0
+    finite = np.isfinite(pairs)
+    if np.count_nonzero(finite) < finite.size:
+        index = int(finite.all(axis=1).argmin())
+        ratio, force = pairs[index].tolist()
+        raise CurveError("SYN002", index, f"point {index + 1} is not finite: ({ratio!r}, {force!r})")
+    return pairs
+
+
+def _first_of_each_ratio(pairs: FloatArray, order: IndexArray) -> NDArray[np.bool_]:
+    """Return a mask over the sorted points that drops repeats.
+
+    Raises:
+        CurveError: CRV003, one ratio with two forces.
+    """
+    ratios, forces = pairs[order, 0], pairs[order, 1]
+    repeats = ratios[1:] == ratios[:-1]
+    clashes = np.flatnonzero(repeats & (forces[1:] != forces[:-1]))
+    if clashes.size:
+        first, later = order[clashes[0]], order[clashes[0] + 1]
+        values = f"{pairs[first, 1].item()!r} (point {first + 1}) and {pairs[later, 1].item()!r} (point {later + 1})"
+        raise CurveError("CRV003", int(later), f"two forces at ratio {pairs[first, 0].item()!r}: {values}")
+    return np.concatenate((np.ones(min(len(order), 1), np.bool_), ~repeats))
+
+
+def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatArray:
+    """Return the slope of each segment.
+
+    Raises:
+        CurveError: CRV011, a width or a slope overflows, or a slope is not zero but too small to be a normal number.
+    """
+    with np.errstate(all="ignore"):
+        widths = ratios[1:] - ratios[:-1]
+        plain = (forces[1:] - forces[:-1]) / widths
+    steepness = np.abs(plain)
+    if np.minimum.reduce(steepness) >= _NORMAL and np.maximum.reduce(steepness) < np.inf:
+        return plain  # the case of most curves
+    slopes = _difference_quotient(forces[1:], forces[:-1], widths)
+    subnormal = (forces[1:] != forces[:-1]) & (np.abs(slopes) < _NORMAL)
+    usable = np.isfinite(widths) & np.isfinite(slopes) & ~subnormal
+    if np.count_nonzero(usable) < len(usable):
+        segment = int(usable.argmin())
+        ends = order[segment : segment + 2]
+        what = "width" if not np.isfinite(widths[segment]) else "slope"
+        fault = "is too small" if what == "slope" and subnormal[segment] else "is too large"
+        message = f"the {what} between points {ends[0] + 1} and {ends[1] + 1} {fault} for a float64"
+        raise CurveError("CRV011", int(ends.max()), message)
+    return slopes
+
+
+def _difference_quotient(
+    upper: FloatArray | np.float64, lower: FloatArray | np.float64, divisor: FloatArray | np.float64
+) -> FloatArray:
+    """Return (upper - lower) / divisor, also where only the difference overflows."""
+    with np.errstate(all="ignore"):
+        plain = np.asarray((upper - lower) / divisor)
+        overflowed = np.isinf(plain)
+        if not np.count_nonzero(overflowed):
+            return plain
+        return np.where(overflowed, (0.5 * upper - 0.5 * lower) / divisor * 2.0, plain)
+
+
 def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:
     expect(out, "out", tuple, "two arrays (force, slope)")
     if len(out) != 2:
@@ -273,7 +386,7 @@ def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> 
 def _finite_ratios(ratios: ArrayLike) -> FloatArray:
     """Return ratios as float64, for queries that compute no force; raise ValueError for one that is not finite."""
     with np.errstate(over="ignore"):
-        query = real_numbers(ratios, "ratios").astype(np.float64, copy=False)
+        query = _real_numbers(ratios, "ratios").astype(np.float64, copy=False)
     finite = np.isfinite(query)
     if not finite.all():
         _refuse(query.reshape(-1), int(np.argmin(finite)), 0)

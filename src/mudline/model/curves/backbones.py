@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mudline.model.curves.points import FloatArray
+from mudline.model.curves import FloatArray
 
 __all__ = ["MODELS", "Backbone", "Model", "Soil"]
 

@@ -17,8 +17,7 @@ from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import short_repr
 from mudline.model.contact import ContactInput
 from mudline.model.contact.arrays import Positions
-from mudline.model.contact.embedment import static_depth
-from mudline.model.contact.stretch import cut_out
+from mudline.model.contact.stretch import cut_out, static_depth
 from mudline.model.results.evaluation import require_elements
 from mudline.model.scene.boundary import HeldLine, lines_between, vessel_offset
 from mudline.model.scene.model import Scene

@@ -10,8 +10,8 @@ import numpy as np
 
 from mudline.basics.quantities import unit_names
 from mudline.model.contact import ContactInput, ContactModel
-from mudline.model.contact.embedment import static_depth
 from mudline.model.contact.input import LawKind
+from mudline.model.contact.stretch import static_depth
 from mudline.model.curves import ForceCurve
 from mudline.model.results.stage_times import Timer, seconds_per_step
 from mudline.model.scene.curves import SceneCurve

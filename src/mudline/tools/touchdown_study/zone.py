@@ -11,9 +11,8 @@ import numpy as np
 
 from mudline.basics.quantities import unit_names
 from mudline.model.contact import ContactInput
-from mudline.model.contact.embedment import static_depth
 from mudline.model.contact.input import LawAssignment
-from mudline.model.contact.stretch import cut_out
+from mudline.model.contact.stretch import cut_out, static_depth
 from mudline.model.curves import ForceCurve
 from mudline.model.scene.load_case import Scheme, TopMotion, scheme_of, top_motion
 from mudline.model.scene.model import Scene

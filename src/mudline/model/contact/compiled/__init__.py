@@ -12,15 +12,12 @@ This module makes the input of the loops: tables with a row for each element or 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.laws import law_module
 from mudline.model.contact.tables import LawTables, NormalRows
-
-if TYPE_CHECKING:
-    from mudline.model.curves import ForceCurve
 
 # Columns of the table of numbers of elements, before the parameters of their normal laws.
 DIAMETER, ONSET, LINE, SPRING, EXTENT, LATERAL, LAW = range(7)
@@ -43,53 +40,24 @@ NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
 """Kinds of normal laws of elements; laws with an equation are numbered from the last kind on."""
 
 
-class Features(NamedTuple):
-    """Features of a scene that the compiled loops depend on."""
-
-    flat: bool
-    curves: bool
-    paths: bool
-    cuts: bool
-    unloading: bool
-    steepens: bool
-    springs: bool
-    damping: bool
-    nodal_damping: bool
-    suction: bool
-    slides: bool
-    turns: bool
-    lateral: bool
-    nodal: bool
-    friction: bool
-    elliptic: bool
-    turned: bool
-    trench: bool
-    tables: bool
-    breakout: bool
-    embeds: bool
-    velocities: bool
-
-
-def features_of(tables: LawTables, *, flat: bool) -> Features:
-    """Return the features of a scene."""
-    friction, trench = tables.friction, tables.trench
+def features_of(tables: LawTables) -> frozenset[str]:
+    """Return the names of the features of a scene that the compiled loops depend on."""
+    friction = tables.friction
     own = "unloading", "springs", "damping", "nodal_damping", "suction", "lateral", "friction", "trench", "breakout"
-    return Features(
-        **{name: getattr(tables, name) is not None for name in own},
-        flat=flat,
-        curves=any(rows.curve >= 0 for rows in tables.normal),
-        paths=any(rows.path >= 0 for rows in tables.normal),
-        cuts=tables.cuts,
-        steepens=tables.steepens,
-        slides=friction is not None or tables.lateral is not None,
-        turns=tables.line.turns,
-        nodal=bool(tables.nodal),
-        elliptic=friction is not None and bool(friction.ellipse.any()),
-        turned=friction is not None and bool(friction.turned.size),
-        tables=trench is not None and bool((trench.table >= 0).any()),
-        embeds=tables.embeds,
-        velocities=tables.velocities,
-    )
+    has = {name: getattr(tables, name) is not None for name in own} | {
+        "curves": any(rows.curve >= 0 for rows in tables.normal),
+        "paths": any(rows.path >= 0 for rows in tables.normal),
+        "cuts": tables.cuts,
+        "steepens": tables.steepens,
+        "slides": friction is not None or tables.lateral is not None,
+        "turns": tables.line.turns,
+        "nodal": bool(tables.nodal),
+        "elliptic": friction is not None and bool(friction.ellipse.any()),
+        "turned": friction is not None and bool(friction.turned.size),
+        "embeds": tables.embeds,
+        "velocities": tables.velocities,
+    }
+    return frozenset(name for name, present in has.items() if present)
 
 
 def formulas(tables: LawTables) -> list[NormalRows]:
@@ -119,7 +87,10 @@ def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
     for rows in tables.normal:
         if rows.curve >= 0:
             curve = given.curves[rows.curve]
-            knots.append(_knots(curve))
+            each, steepest = curve.slopes, law_module("linear").steepest_slopes(curve)
+            knots.append(
+                np.stack([curve.ratios, curve.forces, np.append(each, each[-1]), np.append(steepest, steepest[-1])])
+            )
             index[rows.rows, KIND] = ON_CURVE
             index[rows.rows, CURVE_START] = start
             start += len(curve.ratios)
@@ -136,20 +107,11 @@ def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
     return read_only(index), read_only(numbers), read_only(np.concatenate(knots, axis=1))
 
 
-def _knots(curve: ForceCurve) -> FloatArray:
-    from mudline.model.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
-
-    steepest, slopes = steepest_slopes(curve), curve.slopes
-    return np.stack([curve.ratios, curve.forces, np.append(slopes, slopes[-1]), np.append(steepest, steepest[-1])])
-
-
 def suction_table(tables: LawTables) -> Any:
     """Return the suction laws (k, c)."""
     if tables.suction is None:
         return read_only(np.empty((0, SUCTION_COLUMNS)))
-    from mudline.model.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
-
-    law = SuctionLaw(*tables.suction.columns)
+    law = law_module("suction").SuctionLaw(*tables.suction.columns)
     return read_only(np.column_stack([*law, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor), law.least_depth]))
 
 
@@ -188,9 +150,7 @@ def trench_tables(tables: LawTables) -> tuple[Any, ...]:
     if trench is None:
         none = (np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((4, 0)))
         return between(np.zeros(1)), read_only(np.zeros((0, TRENCH_INDICES), np.uint32)), *map(read_only, none)
-    from mudline.model.contact.laws.trench import table_rows  # noqa: PLC0415 - most friction has no trench
-
-    rows = [np.stack(table_rows(table)) for table in tables.given.tables]
+    rows = [np.stack(table) for table in trench.tables]
     starts = np.append(0, np.cumsum([table.shape[1] for table in rows]))
     index = np.full((len(trench.nodes), TRENCH_INDICES), NOTHING, np.uint32)
     index[:, TRENCH_KIND] = trench.kind

@@ -202,6 +202,10 @@ class NormalLaw(Law):
     __repr__ = short_repr
 
 
+_AWAY = 2.0**-40
+"""Relative size of a test increment of the penetration: small for the stiffness, large against rounding of forces."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class PathLaw(NormalLaw):
     """A normal law whose force depends on the path of an element.
@@ -251,12 +255,20 @@ class PathLaw(NormalLaw):
             force[...], stiffness[...], memory = self.advance(z, diameter, memory, parameters)
         held[:, :count] = np.stack(memory, axis=1)
 
+    def turned_round(self, held: FloatArray, diameter: FloatArray, parameters: tuple[FloatArray, ...]) -> FloatArray:
+        """Return the stiffness (k,) of an increment opposite to the last, from the memory `held` (k, c)."""
+        now = tuple(held[:, : len(self.start)].T)
+        turns = self.begin(np.nextafter(now[0], np.inf), now)[2] != now[2]  # deeper would be a reversal
+        z = now[0] * np.where(turns, 1.0 + _AWAY, 1.0 - _AWAY)
+        stiffness: FloatArray = self.advance(z, diameter, self.begin(z, now), parameters)[1]
+        return stiffness
+
 
 _LAWS: dict[str, str | Law] = {
     "linear": "linear:LINEAR",
     "smoothed": "linear:SMOOTHED",
     "nodal": "linear:NODAL",
-    "curve": "curve:CURVE",
+    "curve": "linear:CURVE",
     "rigid": "linear:RIGID",
     "unloading": "unloading:UNLOADING",
     "suction": "suction:SUCTION_LAW",

@@ -42,6 +42,18 @@ def shares(far: Value, deep: Value, law: Numbers) -> tuple[Value, Value, Value]:
     return 1.0 - fall * into, where((into > 0.0) & (into < 1.0), fall / span, 0.0), law[0] / peak
 
 
+def tangent(
+    before: FloatArray, after: tuple[FloatArray, FloatArray], distance: FloatArray, limit: FloatArray, law: Numbers
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the remaining share of limits (k,), their derivative by the distance, and the spring over that at w = 0.
+
+    `before` is s before the step, `after` are s and w after it, `limit` are limits without a breakout. w is held.
+    """
+    share, fall, softer = shares(*after, law)
+    grows = np.isfinite(distance) & (after[0] > before)
+    return share, np.where(grows, 0.0 - limit * fall * np.sign(distance), 0.0), softer
+
+
 def _out_of_order(parameters: dict[str, FloatArray]) -> tuple[BoolArray, str]:
     peak = parameters["peak_displacement"] + parameters["peak_growth"]
     return parameters["residual_displacement"] <= peak, "its residual is reached no later than its peak"

@@ -191,7 +191,6 @@ class FrictionForce(NamedTuple):
         by_offset: (n, 2) d force[i] / d (offset from the centreline of a trench).
         by_compression: (n, 2) d force[i] / d N.
         elongation: (n, 2) displacement from the stick point before the step, along u1 and u2.
-        trial: (n, 2) forces in the springs before they are brought back to their limits.
         dissipated: (n,) work done against slipping in this step, >= 0.
         history: history for the next step.
     """
@@ -201,9 +200,28 @@ class FrictionForce(NamedTuple):
     by_offset: FloatArray
     by_compression: FloatArray
     elongation: FloatArray
-    trial: FloatArray
     dissipated: FloatArray
     history: FrictionHistory
+
+    def tangent(
+        self, directions: tuple[FloatArray, FloatArray], extra: ExtraLimit | None
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return derivatives of the forces by position (n, 3, 3), by normal force (n, 3), and by a turn (n, 3).
+
+        A turn of the `directions` u1 and u2, (n, 3) each, by a about the normal makes d u1 = a u2, d u2 = -a u1.
+        """
+        first, second = directions
+        axes = np.stack(directions, axis=1)
+        along = np.einsum("nij,njk->nik", self.by_position, axes)
+        by_angle = np.stack([self.elongation[:, 1], 0.0 - self.elongation[:, 0]], axis=1)
+        change = np.einsum("nij,nj->ni", self.by_position, by_angle)
+        if extra is not None:
+            along += self.by_offset[:, :, None] * extra.gradient[:, None, :]
+            change += self.by_offset * extra.by_angle[:, None]
+        turned = change[:, 0, None] * first + change[:, 1, None] * second
+        turned += self.force[:, 0, None] * second - self.force[:, 1, None] * first
+        by_normal_force = np.einsum("nij,ni->nj", axes, self.by_compression)
+        return np.einsum("nij,nik->njk", axes, along), by_normal_force, turned
 
 
 def slide(
@@ -226,10 +244,12 @@ def slide(
     pressing = np.where(closed, compression, 0.0)
     stiffness, limit = law.springs(pressing), law.coefficients * pressing[:, None]
     trial = stiffness * elongation
-    against = np.zeros(len(trial), np.bool_)
+    limit_by_offset, limit_by_normal = np.zeros(trial.shape), law.coefficients.copy()
     if extra is not None:
         against = (extra.outward != 0.0) & (np.sign(trial[:, 1]) == extra.outward)
         limit[:, 1] += extra.force * against
+        limit_by_offset[:, 1] = np.where(against, extra.by_offset, 0.0)
+        limit_by_normal[:, 1] += np.where(against, extra.by_normal_force, 0.0)
     with np.errstate(all="ignore"):
         boxes = [in_box(trial[:, side], limit[:, side]) for side in range(2)]
         ellipse = in_ellipse(trial[:, 0], trial[:, 1], limit[:, 0], limit[:, 1])
@@ -240,66 +260,46 @@ def slide(
         stick_points += axis * moved[:, side, None]
     stick_points[~closed] = np.nan
     states = np.where(closed[:, None], slips + np.int8(FrictionState.STICK), FrictionHistory.initial(law.active).states)
-    change = _derivatives(law, _Trial(stiffness, elongation, trial, limit, slips), against, extra)
+    rising, side = law.rising * elongation, np.sign(trial)
+    by_position = np.zeros((*slips.shape, 2))
+    for one in range(2):
+        by_position[:, one, one] = np.where(slips[:, one], 0.0, stiffness[:, one])
+    by_offset = np.where(slips, side * limit_by_offset, 0.0)
+    by_normal = np.where(slips, side * limit_by_normal, rising)
+    curved = law.ellipse & law.active
+    of_ellipse = _ellipse_derivatives((stiffness, trial, limit), rising, limit_by_offset, limit_by_normal)
+    for whole, values in zip((by_position, by_offset, by_normal), of_ellipse, strict=True):
+        whole[curved] = values[curved]
     return FrictionForce(
         np.subtract(0.0, held),
-        np.where(before[:, None, None], 0.0 - change[0], 0.0),  # at touchdown there is no force yet
-        np.where(closed[:, None], 0.0 - change[1], 0.0),
-        np.where(closed[:, None], 0.0 - change[2], 0.0),
+        np.where(before[:, None, None], 0.0 - by_position, 0.0),  # at touchdown there is no force yet
+        np.where(closed[:, None], 0.0 - by_offset, 0.0),
+        np.where(closed[:, None], 0.0 - by_normal, 0.0),
         elongation,
-        trial,
         np.where(closed, (held * moved).sum(axis=1), 0.0),
         FrictionHistory(stick_points, states.astype(np.int8)),
     )
 
 
-class _Trial(NamedTuple):
-    """Springs (n, 2), their elongations and trial forces, the limits, and whether they slip."""
+def _ellipse_derivatives(
+    springs: tuple[FloatArray, FloatArray, FloatArray], rising: FloatArray, by_offset: FloatArray, by_normal: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return derivatives of both forces by position, by offset and by normal force, with an ellipse.
 
-    stiffness: FloatArray
-    elongation: FloatArray
-    trial: FloatArray
-    limit: FloatArray
-    slips: BoolArray
-
-
-_Change = tuple[FloatArray, FloatArray, FloatArray]
-"""Derivatives of the forces in the springs: by position (n, 2, 2), by offset (n, 2), by normal force (n, 2)."""
-
-
-def _derivatives(law: FrictionLaw, step: _Trial, against: BoolArray, extra: ExtraLimit | None) -> _Change:
-    """Return derivatives of the forces: by the spring's stiffness while sticking, by the limit while slipping."""
-    rising = law.rising * step.elongation
-    limit_by_normal, limit_by_offset = law.coefficients.copy(), np.zeros(step.trial.shape)
-    if extra is not None:
-        limit_by_normal[:, 1] += np.where(against, extra.by_normal_force, 0.0)
-        limit_by_offset[:, 1] = np.where(against, extra.by_offset, 0.0)
-    side = np.sign(step.trial)
-    by_position = np.zeros((*step.slips.shape, 2))
-    for axis in range(2):
-        by_position[:, axis, axis] = np.where(step.slips[:, axis], 0.0, step.stiffness[:, axis])
-    by_offset = np.where(step.slips, side * limit_by_offset, 0.0)
-    by_normal = np.where(step.slips, side * limit_by_normal, rising)
-    curved = law.ellipse & law.active
-    ellipse = _ellipse(step, rising, limit_by_offset, limit_by_normal)
-    for whole, values in zip((by_position, by_offset, by_normal), ellipse, strict=True):
-        whole[curved] = values[curved]
-    return by_position, by_offset, by_normal
-
-
-def _ellipse(step: _Trial, rising: FloatArray, by_offset: FloatArray, by_normal: FloatArray) -> _Change:
-    """Return the derivatives of both directions together; with g the norm of trial / limit, the force is trial / g."""
+    `springs` are stiffness, trial forces and limits (n, 2), and the other arguments derivatives of the springs by the
+    normal force and of the limits. With g the norm of trial / limit the force is trial / g.
+    """
+    stiffness, trial, limit = springs
     with np.errstate(all="ignore"):
-        limited = step.limit > 0.0
-        limit = np.where(limited, step.limit, 1.0)
-        trial = np.where(limited, step.trial, 0.0)
+        limited = limit > 0.0
+        limit, trial = np.where(limited, limit, 1.0), np.where(limited, trial, 0.0)
+        stiffness, rising = np.where(limited, stiffness, 0.0), np.where(limited, rising, 0.0)
         share = trial / limit
         size = norm(share[:, 0], share[:, 1])[:, None]
         scale = np.maximum(size, 1.0)
         unit = np.where((size > 1.0) & limited, share / scale, 0.0)
         # relative change of g with a trial force and, falling, with a limit
         by_trial, by_limit = unit / (limit * scale), unit * unit / limit
-        stiffness, rising = np.where(limited, step.stiffness, 0.0), np.where(limited, rising, 0.0)
         force = trial / scale
         growth = by_trial * stiffness
         growth_by_offset = 0.0 - (by_limit * by_offset).sum(axis=1, keepdims=True)

@@ -1,4 +1,10 @@
-"""Laws of constant stiffness or damping: normal laws, springs against uplift and lateral springs, the rigid seabed.
+"""Linear and piecewise linear laws: normal laws, springs against uplift and lateral springs, damping, the rigid seabed.
+
+`*EMBEDMENT` and `*SEABED STIFFNESS` are curves over the ratio of penetration to diameter,
+
+    F = F_i + s_i (z / D - r_i),  dF/dz = s_i / D
+
+in the segment i that contains z / D; see `mudline.model.curves`. A negative force is kept, or cut to 0.
 
 `STIFFNESS=number` of `*SEABED PROPERTIES` and of `*ELASTIC SURFACE`; `NODAL STIFFNESS=`, `SMOOTHING=` and `FORM=` of
 `*SEABED CONTACT`. With the stiffness K and the half width h of the zone, over the penetration z:
@@ -35,6 +41,7 @@ It is added to the reaction, which friction depends on, and never pulls.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -42,10 +49,35 @@ from mudline.basics.short_repr import counted
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.laws import Law, Moving, NormalLaw, Parameter, Reached, Value, where
 
+if TYPE_CHECKING:
+    from mudline.model.curves import ForceCurve
+
 _WIDEST = 0.25 * float(np.finfo(np.float64).max)
 """Half widths above this are halved in sums that would overflow."""
 _SMALL_SHARE = 2.0**-960
 _LIFT = 2.0**60
+
+
+def on_segment(ratio: Value, start: Value, force: Value, slope: Value) -> Value:
+    """Return the force at a ratio of the segment with this start, force and slope."""
+    return force + slope * (ratio - start)
+
+
+def steepest_slopes(curve: ForceCurve) -> FloatArray:
+    """Return for each segment (n - 1,) the steepest slope between the mudline and its end."""
+    first = int(curve.segment(np.zeros(1))[0])
+    slopes: FloatArray = np.concatenate(
+        [np.full(first, curve.slopes[first]), np.maximum.accumulate(curve.slopes[first:])]
+    )
+    return slopes
+
+
+def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
+    """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0.
+
+    At a point of the curve the segment to its right is not included; an infinite ratio includes the whole curve.
+    """
+    return steepest_slopes(curve)[np.searchsorted(curve.ratios[1:-1], ratio)]
 
 
 def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value, Value]:
@@ -53,7 +85,7 @@ def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value,
     return stiffness * z, stiffness
 
 
-def linear_steepest(z: Value, diameter: Value, stiffness: Value) -> Value:
+def own_stiffness(z: Value, diameter: Value, stiffness: Value, *others: Value) -> Value:
     """Return K."""
     return stiffness
 
@@ -76,11 +108,6 @@ def smoothed_reaction(
     in_zone = np.maximum(stiffness, into) * drop * (share * (1.5 - scale)) * np.minimum(stiffness, into)
     inside = z < half_width + shift
     return where(inside, in_zone, stiffness * (z - shift)), where(inside, stiffness * drop * share, stiffness)
-
-
-def smoothed_steepest(z: Value, diameter: Value, stiffness: Value, half_width: Value, one_sided: Value) -> Value:
-    """Return K."""
-    return stiffness
 
 
 def zone_onset(stiffness: Value, half_width: Value, one_sided: Value) -> Value:
@@ -119,13 +146,23 @@ def _planned_nodes(parameters: dict[str, FloatArray]) -> str:
     return f"{counted(nodes, 'node')} with a stiffness of {'its' if nodes == 1 else 'their'} own"
 
 
+CURVE = NormalLaw(
+    name="curve",
+    summary="force-embedment curve",
+    acts_on="elements",
+    parameters=(Parameter("curve", "1", "index of the curve"),),
+    needs_diameter=True,
+    tables=True,
+    equation="F = F_i + s_i (z / D - r_i)",
+    source="definition of *EMBEDMENT and *SEABED STIFFNESS",
+)
 LINEAR = NormalLaw(
     name="linear",
     summary="linear stiffness",
     acts_on="elements",
     parameters=(_STIFFNESS,),
     reaction=linear_reaction,
-    steepest=linear_steepest,
+    steepest=own_stiffness,
     plan=_AT_MEAN_DEPTH,
     equation="F = K z",
     source="definition of STIFFNESS=",
@@ -136,7 +173,7 @@ SMOOTHED = NormalLaw(
     acts_on="elements",
     parameters=(_STIFFNESS, _HALF_WIDTH, _ONE_SIDED),
     reaction=smoothed_reaction,
-    steepest=smoothed_steepest,
+    steepest=own_stiffness,
     onset=zone_onset,
     plan=_AT_MEAN_DEPTH,
     equation="F = K (z + h)^2 / (4 h) in the zone, K z beyond (CENTRED); K z^2 / (4 h), K (z - h) (ONE-SIDED)",
@@ -148,7 +185,7 @@ NODAL = NormalLaw(
     acts_on="nodes",
     parameters=(Parameter("stiffness", "F/L", "force per length of penetration of the node"), _HALF_WIDTH, _ONE_SIDED),
     reaction=smoothed_reaction,
-    steepest=smoothed_steepest,
+    steepest=own_stiffness,
     onset=zone_onset,
     plan=_planned_nodes,
     equation="as `smoothed`, at the node's own penetration",
@@ -189,6 +226,24 @@ SUCTION_SPRING = Law(
 def lateral_force(stiffness: Value, elongation: Value) -> Value:
     """Return the force along n x t on each of the two nodes; `stiffness` is k times half of the element's length."""
     return -stiffness * elongation
+
+
+def lateral_tangent(
+    stiffness: FloatArray, across: FloatArray, arm: FloatArray, turn: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return derivatives (k, 3, 3) of the force on each of the two nodes by the positions of the first and the second.
+
+    `across` (k, 3) is n x t, `arm` (k, 3) the displacement from the touchdown point, `turn` (k, 3, 3) the derivative of
+    n x t by the second node's position, minus that by the first's.
+    """
+    force = -stiffness * np.einsum("ki,ki->k", across, arm)
+    first, second = (
+        across[:, :, None]
+        * ((0.0 - stiffness)[:, None] * (0.5 * across + sign * np.einsum("ki,kij->kj", arm, turn)))[:, None]
+        + force[:, None, None] * sign * turn
+        for sign in (-1.0, 1.0)
+    )
+    return first, second
 
 
 LATERAL = Law(

@@ -19,9 +19,11 @@ width, falling linearly to 0 at half of the upper width; the normal stays that o
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
-from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
 from mudline.model.contact.laws import Law, Parameter, Value, where
 
 PEAK, WALL, TABLE, LEVEL = 0, 1, 2, 3
@@ -118,6 +120,63 @@ def table_row(table: TableRows, distance: FloatArray) -> IndexArray:
     offset = table[0]
     inside = np.searchsorted(offset[1:-1], distance, side="right")
     return np.where(distance > offset[-1], len(offset) - 1, inside)
+
+
+class TrenchRows(NamedTuple):
+    """Trenches of nodes for the lateral limits: a row (k,) for each trench that a node lies in.
+
+    Attributes:
+        nodes: (k,) indices of nodes, ascending.
+        start: (n + 1,) rows start[i] to start[i + 1] belong to node i.
+        kind: PEAK, WALL or TABLE.
+        inner, outer: half widths.
+        steepness: 1 over half of the difference of the half widths.
+        amount: peak force, coefficient of the normal force on the wall, or half length for a table.
+        table: index of the table, -1 for none.
+        line: row in `lines` of a straight centreline; -1 for the line as laid.
+        lines: (c, 4) place and direction (Y, Z) of each straight centreline.
+        tables: columns of each table, for `in_table`.
+    """
+
+    nodes: IndexArray
+    start: IndexArray
+    kind: StateArray
+    inner: FloatArray
+    outer: FloatArray
+    steepness: FloatArray
+    amount: FloatArray
+    table: SmallIndexArray
+    line: SmallIndexArray
+    lines: FloatArray
+    tables: tuple[TableRows, ...]
+
+
+def resistance(trench: TrenchRows, offset: FloatArray, normal_force: FloatArray) -> FloatArray:
+    """Return the lateral resistance of each row (steps, k) at its offset under a normal force."""
+    distance = np.abs(offset)
+    force: FloatArray = trench.amount * peak_share(distance, trench.inner, trench.outer, trench.steepness)
+    on = on_wall(distance, trench.inner, trench.outer)
+    force = np.where(trench.kind == WALL, trench.amount * normal_force * on, force)
+    for index, columns in enumerate(trench.tables):
+        here = trench.table == index
+        row = table_row(columns, distance[:, here])
+        held = np.minimum(np.maximum(distance[:, here], columns[0][0]), columns[0][-1])
+        force[:, here] = trench.amount[here] * in_table(held, *(column[row] for column in columns))
+    return force
+
+
+def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return derivatives of `resistance` by the distance and by the normal force, (k,) each, for one step."""
+    distance = np.abs(offset)
+    kind, inner, outer, amount = trench.kind, trench.inner, trench.outer, trench.amount
+    by_distance = np.where(kind == PEAK, amount * peak_slope(distance, inner, outer), 0.0)
+    by_normal = np.where(kind == WALL, amount * on_wall(distance, inner, outer), 0.0)
+    for index, columns in enumerate(trench.tables):
+        here: BoolArray = trench.table == index
+        row = table_row(columns, distance[here])
+        bent = columns[2][row] + 2.0 * columns[3][row] * (np.minimum(distance[here], columns[0][-1]) - columns[0][row])
+        by_distance[here] = amount[here] * np.where(distance[here] < columns[0][0], 0.0, bent)
+    return by_distance, by_normal
 
 
 def share_of_piece(away: tuple[Value, Value, Value], span: tuple[Value, Value, Value], inverse: Value) -> Value:
