@@ -86,6 +86,6 @@ def command(*, model: str, plot: Plot, depth: float | None, extend: bool, **give
         forces = Backbone(MODELS[model], soil).force(smooth)
         drawn = {"model": np.column_stack((smooth, forces)), curve.name: block.curves[0].points}
         rows = [{"name": name, "kind": OF_SEABED, "points": points} for name, points in drawn.items()]
-        plot.write(lambda plots: plots.curves_figure(rows, "user"))
+        plot.write(lambda plots: plots.curves.curves_figure(rows, "user"))
     emit(f"{line}\n" for line in block_lines(block))
     return DONE

@@ -68,7 +68,7 @@ def command(
         rows = curve_rows(scene, ratios, weight)
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    plot.write(lambda plots: plots.curves_figure(rows, scene.units))
+    plot.write(lambda plots: plots.curves.curves_figure(rows, scene.units))
     if output_format == "json":
         emit_json(rows)
     elif output_format == "csv":

@@ -41,7 +41,7 @@ class Plot:
             plots = import_module("mudline.model.results.plots")
             figure = draw(plots)
             with writing(self.path) as stream:
-                plots.save(figure, suffix_of(self.path), stream)
+                plots.style.save(figure, suffix_of(self.path), stream)
             if view is not None:
                 view.note(f"plot -> {self.path.as_posix()}")
 

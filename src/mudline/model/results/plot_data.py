@@ -53,17 +53,17 @@ class Chosen(NamedTuple):
         return ResultPart(self.step, self.result.as_series())
 
     @property
-    def heights(self) -> Floats:
-        """The heights (n,) of the nodes, NaN where unknown."""
+    def places(self) -> Floats:
+        """The positions (n, 3) of the nodes, NaN where unknown."""
         if self.result.positions is None:
-            return np.full(self.result.gap.shape, np.nan)
-        return np.asarray(self.result.positions[:, 0], dtype=np.float64)
+            return np.full((*self.result.gap.shape, 3), np.nan)
+        return np.asarray(self.result.positions, dtype=np.float64)
 
     @property
     def seabed(self) -> Floats:
         """The height (n,) of the seabed vertically below each node."""
         with np.errstate(all="ignore"):
-            heights: Floats = self.heights - self.result.gap / self.result.normal[..., 0]
+            heights: Floats = self.places[:, 0] - self.result.gap / self.result.normal[..., 0]
         return heights
 
 

@@ -14,7 +14,9 @@ import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from mudline.checks.output import visible
-from mudline.model.results.plots import can_draw, curves_figure, evaluation_figure, model_figure, save
+from mudline.model.results.plots import can_draw, evaluation_figure, model_figure
+from mudline.model.results.plots.curves import curves_figure
+from mudline.model.results.plots.style import save
 from mudline.model.scene.curves import OF_SEABED
 from mudline.tools.reporting.content import PageContent
 

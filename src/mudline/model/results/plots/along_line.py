@@ -254,7 +254,7 @@ _LABELLED_POINTS = 3
 def line(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
     data, touching = stretch.data, False
-    heights, seabed = data.drawn.heights, data.drawn.seabed
+    heights, seabed = data.drawn.places[:, 0], data.drawn.seabed
     for drawn_line in stretch.lines:
         drawn = thinned(data.drawn.result.gap[drawn_line.nodes])
         arcs, nodes = drawn_line.node_arcs[drawn], drawn_line.nodes[drawn]
@@ -287,7 +287,7 @@ def _crop(axes: Axes, stretch: DrawnStretch) -> None:
     near = nodes[data.drawn.result.gap[nodes] <= most]
     if not 0 < len(near) < len(nodes):
         return
-    drawn = np.concatenate([data.drawn.heights[near], data.drawn.seabed[near]])
+    drawn = np.concatenate([data.drawn.places[near, 0], data.drawn.seabed[near]])
     low, high = float(np.nanmin(drawn)), float(np.nanmax(drawn))
     if is_number(low, high) and high > low:
         axes.set_ylim(low - 0.05 * (high - low), high)
@@ -295,7 +295,7 @@ def _crop(axes: Axes, stretch: DrawnStretch) -> None:
 
 def _thick(axes: Axes, data: PlotData, drawn_line: DrawnLine) -> bool:
     """Draw the elements of a line that touch the seabed over it; return True if there are any."""
-    lines, heights = data.given.lines, data.drawn.heights
+    lines, heights = data.given.lines, data.drawn.places[:, 0]
     here = np.flatnonzero(carried(data.drawn.result)[lines.elements[drawn_line.number]])
     arcs, along = lines.node_arcs(drawn_line.number, data.given.length), heights[lines.nodes[drawn_line.number]]
     here = here[thinned(np.nan_to_num(along[here]))] if here.size else here

@@ -75,8 +75,7 @@ def curves_figure(rows: Iterable[dict[str, Any]], units: str) -> Figure:
             title += f" (*{own[0]['keyword']})"
         if kind == OF_CURRENT:
             labels.reverse()
-        axes.set_xlabel(labels[0])
-        axes.set_ylabel(labels[1])
+        axes.set(xlabel=labels[0], ylabel=labels[1])
         finish(axes)
         if kind == OF_CURRENT and own[0]["axes"][0].startswith("depth"):
             axes.invert_yaxis()
@@ -118,8 +117,7 @@ def draw_curve(axes: Axes, name: str, points: FloatArray) -> None:
     """Draw a force-embedment curve of points (n, 2) into axes that may hold others."""
     drawn = axes.get_legend_handles_labels()[1]
     _curve(axes, {"name": name, "kind": OF_SEABED, "points": points}, style_of(len(drawn)))
-    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
-    axes.set_ylabel(ELEMENTS["force"].label.replace("\n", " "))
+    axes.set(xlabel=labelled(ELEMENTS["ratio"].label, "-"), ylabel=ELEMENTS["force"].label.replace("\n", " "))
     legend(axes)
 
 
@@ -166,8 +164,7 @@ def on_curves(axes: Axes, stretch: DrawnStretch) -> None:
         axes.plot([], [], **style.line, marker=style.marker, markersize=4, label=label)
     if len(used) > _NAMED:
         axes.plot([], [], " ", label=f"and {len(used) - _NAMED} more curves")
-    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
-    axes.set_ylabel(ELEMENTS["force"].axis(data.given.units))
+    axes.set(xlabel=labelled(ELEMENTS["ratio"].label, "-"), ylabel=ELEMENTS["force"].axis(data.given.units))
     legend(axes, note="pale: first steps, dark: last" if data.steps > 1 else "", columns=2)
 
 
