@@ -38,11 +38,10 @@ def print_cases(ranked: Sequence[CaseSummary], folder: str, names: Mapping[str, 
     short = all(len(names[row.deck]) <= _SHORT for row in ranked)
     deck = text("deck", lambda row: names[row.deck], whole=short)
     if failed:
-        table = DisplayTable(f"Failed{where}", [deck, text("reason", "reason")], failed)
-        printer.table(_first(table, view.most))
+        printer.table(DisplayTable(f"Failed{where}", [deck, text("reason", "reason")], failed).first(view.most, "deck"))
     if evaluated:
         title, columns = f"Contact of {counted(len(evaluated), 'deck')}{where}", _columns(evaluated[: view.most])
-        printer.table(_first(DisplayTable(title, [deck, *columns], evaluated), view.most))
+        printer.table(DisplayTable(title, [deck, *columns], evaluated).first(view.most, "deck"))
     doubtful = sum(bool(row.warnings) for row in evaluated)
     parts = [f"{counted(len(ranked), 'deck')}: {len(evaluated)} evaluated"]
     parts += [f"{doubtful} with warnings"] if doubtful else []
@@ -56,11 +55,6 @@ def _inside(folder: str) -> str:
     if place == here:
         return ""
     return (place.relative_to(here) if place.is_relative_to(here) else place).as_posix()
-
-
-def _first(table: DisplayTable, most: int) -> DisplayTable:
-    decks = "more deck" if len(table.rows) - most == 1 else "more decks"
-    return table.first(most, f"{decks}: -v shows all")
 
 
 def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:

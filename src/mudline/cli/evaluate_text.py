@@ -379,8 +379,7 @@ def _print_extents(printer: Printer, series: SeriesSummary, most: int) -> None:
         _time(evaluation, 6),
     ]
     if rows:
-        table = DisplayTable("Lines over all steps", columns, rows)
-        printer.table(table.first(most, "more rows: -v shows all"))
+        printer.table(DisplayTable("Lines over all steps", columns, rows).first(most))
 
 
 # -------------------------------------------------------------------------------------------------------- comparison

@@ -63,7 +63,7 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
         if sheet and not tables:
             notify(f"{summary['file']}: the deck has no elements to list in a sheet")
         for table in tables:
-            view.printer().table(table.first(view.most, "more rows: -v shows all"))
+            view.printer().table(table.first(view.most))
     if errors:
         counts = Counter(error.file for error in errors)
         for file, count in counts.items():
@@ -100,7 +100,7 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
     for key, table in tables.items():
         if rows := summary[key]:
             printed = table(rows, names)
-            printer.table(printed.first(view.most, "more diameters: -v shows all") if key == "diameters" else printed)
+            printer.table(printed.first(view.most, "diameter") if key == "diameters" else printed)
 
 
 def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:

@@ -21,9 +21,7 @@ from mudline.tools.reporting.content import Look, LookError, PageContent
 from mudline.tools.reporting.pictures import Picture
 from mudline.tools.reporting.tables import (
     DETAILS,
-    LONGEST,
     TABLES,
-    PageTable,
     figure_table,
     four_digits,
     input_tables,
@@ -35,8 +33,10 @@ from mudline.tools.touchdown_study.screen import description, sentences
 MOST_FINDINGS = 500
 _FEW_FINDINGS, _FEW_INFERRED = 6, 20
 """Findings and deductions before the appendix, which has all."""
-_LONGEST_LINE = 160
-"""Characters of a line of the deck that a page shows."""
+_MOST_RULES = 16
+"""Rules behind many findings that a page lists."""
+_LONGEST, _LONGEST_LINE = 600, 160
+"""Characters of a text, and of a line of the deck, that a page shows."""
 _AROUND = 1
 """Lines of the deck shown above and below that of a finding."""
 
@@ -56,9 +56,8 @@ def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: 
     findings = _groups(report, "reported", lambda severity: severity != "info")
     hidden = _groups(report, "hidden")
     for name, each in tables.items():
-        if long := [table for table in each if len(table.rows) > table.most]:
+        if long := [table for table in each if len(table.rows) > table.few]:
             details[name] = [*long, *details.get(name, ())]
-        tables[name] = [table.first(f"more-{name}") for table in each]
     if report.study is not None:
         tables["study"] = study_tables(report.study)
     return _rendered(
@@ -143,7 +142,7 @@ def _finalized(value: object) -> object:
 
 
 def _number(value: object) -> str:
-    return four_digits(value) if isinstance(value, float) else "" if value is None else str(value)
+    return four_digits(value) if isinstance(value, float) else "" if value is None else cut(str(value), _LONGEST)
 
 
 _LOGOS = {".svg": ("image/svg+xml", (b"<",)), ".png": ("image/png", (b"\x89PNG",))}
@@ -181,7 +180,7 @@ def _groups(
     rows = [
         {
             "number": number,
-            "found": finding | {"message": cut(finding["message"], LONGEST)},
+            "found": finding | {"message": cut(finding["message"], _LONGEST)},
             "lines": _lines(report, finding["line"]),
         }
         for number, finding in enumerate(findings, 1)
@@ -190,7 +189,7 @@ def _groups(
     return [(name, list(group)) for name, group in groupby(rows, key=lambda row: str(row["found"]["section"]))]
 
 
-def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]]) -> PageTable | None:
+def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]]) -> DisplayTable | None:
     """Return many findings as a table of the rules behind them, errors first; None for few findings."""
     findings = [shown["found"] for _, group in groups for shown in group]
     if len(findings) <= _FEW_FINDINGS:
@@ -204,7 +203,7 @@ def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]])
         number("findings", lambda row: len(row[2])),
         text("lines", lambda row: ", ".join(map(str, row[2][:_FEW])) + (" ..." if len(row[2]) > _FEW else "")),
     )
-    return on_page(DisplayTable("By rule", columns, lines), 16, longest=LONGEST)
+    return on_page(DisplayTable("By rule", columns, lines), _MOST_RULES)
 
 
 _FEW = 4

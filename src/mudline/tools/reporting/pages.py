@@ -93,10 +93,8 @@ class Pages:
     def _row(self, content: dict[str, Any], name: str, page: Path | None) -> dict[str, Any]:
         """Return a row of the index; decks below the working folder have paths relative to it."""
         verdict = content["verdict"]
-        words = verdict["verdict"].partition(" (")[0]
-        kind = "errors" if verdict["errors"] else words
         address = "" if page is None or self.index is None else relative_path(page, self.index.parent)
         counts = {name: verdict[name] for name in ("errors", "warnings")}
         counts |= {name: verdict["keywords"][name] for name in ("read", "total")}
         deck = content["deck"] if os.path.isabs(name) else name  # noqa: PTH117 - Path raises for a long name
-        return {"deck": deck, "page": address, "verdict": words, "kind": kind, **counts}
+        return {"deck": deck, "page": address, "verdict": verdict["verdict"].partition(" (")[0], **counts}
