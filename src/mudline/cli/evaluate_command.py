@@ -23,7 +23,7 @@ from mudline.cli.plots import Plot, numbers_of_elements, plot_option
 from mudline.cli.result_files import beside, require_library, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
-from mudline.model.results.against import ResultComparison, read_reference
+from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
 from mudline.model.results.forms import FORMS, Sink, contents_of, plan_rows, tables_of
 from mudline.model.results.forms.text import text_writer, write_text
@@ -149,8 +149,7 @@ def _evaluate_one(
 ) -> list[ContactWarning]:
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
     output, view = wanted.output, wanted.view
-    reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
-    comparison = None if reference is None else ResultComparison(evaluation, reference)
+    comparison = read_file(against, lambda file: ResultComparison(file, evaluation)) if against else None
     try:
         drawing = None if plot.path is None else PlotData.of_evaluation(evaluation, plot_elements)
     except ValueError as error:
@@ -231,14 +230,13 @@ def _notify_before(evaluation: Evaluation, comparison: ResultComparison | None) 
         notify(f"{stage}: {why}")
     if comparison is None:
         return
-    reference = comparison.reference
-    for numbers, thing, where in (
-        (reference.unknown.tolist(), "element", f"of {reference.file} not in the deck"),
-        (comparison.missing.tolist(), "evaluated element", f"not in {reference.file}"),
-        (reference.lost_times.tolist(), "time", f"of {reference.file} not evaluated"),
-        (reference.missing_times.tolist(), "evaluated time", f"not in {reference.file}"),
+    for key, thing, where in (
+        ("elements_not_in_deck", "element", f"of {comparison.file} not in the deck"),
+        ("elements_not_in_file", "evaluated element", f"not in {comparison.file}"),
+        ("times_not_evaluated", "time", f"of {comparison.file} not evaluated"),
+        ("times_not_in_file", "evaluated time", f"not in {comparison.file}"),
     ):
-        if numbers:
+        if numbers := comparison.unmatched[key]:
             notify(f"{counted(len(numbers), thing)} {where}: {listed_numbers(numbers)}")
 
 

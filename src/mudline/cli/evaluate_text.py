@@ -405,5 +405,5 @@ def print_comparison(comparison: ResultComparison, view: View) -> None:
         *columns_of("relative"),
         number("rms\ndifference", lambda row: shown(row["rms"], 4)),
     ]
-    title = f"Compared with {comparison.reference.file}"
+    title = f"Compared with {comparison.file}"
     view.printer().table(DisplayTable(title, columns, comparison.differences))
