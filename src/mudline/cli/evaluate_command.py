@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -25,7 +26,7 @@ from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnos
 from mudline.cli.view import Progress, View
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
-from mudline.model.results.forms import FORMS, Sink, contents_of, plan_rows, tables_of
+from mudline.model.results.forms import FORMS, Sink, plan_rows
 from mudline.model.results.forms.text import text_writer, write_text
 from mudline.model.results.plot_data import PlotData
 from mudline.model.results.series import SERIES, SeriesSummary, series_tables
@@ -206,9 +207,8 @@ def _sink(
         return result_files(evaluation, Path(wanted.output), wanted.view, comparison)
     if wanted.form == "text":
         return nullcontext()
-    tables = tables_of(evaluation, wanted.form, wanted.table)
-    writer = text_writer(wanted.form, contents_of(evaluation, tables), {wanted.table: emit})
-    return nullcontext(Sink(evaluation, tables, writer, wanted.form, comparison))
+    writer = partial(text_writer, wanted.form, writes={wanted.table: emit})
+    return nullcontext(Sink(evaluation, wanted.form, writer, comparison, wanted.table))
 
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer | None], view: View, *, bar: bool) -> None:

@@ -22,10 +22,8 @@ from mudline.model.results.forms import (
     ResultTables,
     Sink,
     Writer,
-    contents_of,
     form_module,
     table_path,
-    tables_of,
 )
 
 
@@ -58,9 +56,8 @@ def result_files(
     Files whose digest is recorded need not be `synced`, as a lost file is recognised by it. Raises click.ClickException
     if the form has no place for all rows.
     """
-    tables = tables_of(evaluation, suffix_of(path))
-    with _opened(path, contents_of(evaluation, tables), view, synced=synced) as writer:
-        yield Sink(evaluation, tables, writer, suffix_of(path), comparison)
+    with ExitStack() as stack:
+        yield Sink(evaluation, suffix_of(path), partial(_writer, path, stack, view, synced=synced), comparison)
 
 
 def beside(path: Path) -> dict[str, Path]:
@@ -73,8 +70,8 @@ def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:
 
     Raises click.ClickException as `result_files` does.
     """
-    with _opened(path, tables.contents, View(quiet=True), synced=True) as writer:
-        tables.write(writer)
+    with ExitStack() as stack:
+        tables.write(_writer(path, stack, View(quiet=True), tables.contents, synced=True))
     return _further(path, tables.contents)
 
 
@@ -83,16 +80,12 @@ def _further(path: Path, contents: FileContent) -> dict[str, Path]:
     return {table: table_path(path, table) for table in others} if beside(path) else {}
 
 
-@contextmanager
-def _opened(path: Path, contents: FileContent, view: View, *, synced: bool) -> Iterator[Writer]:
-    """Open a file and further files next to it, and yield their writer."""
-    with ExitStack() as stack:
-        streams = [
-            stack.enter_context(writing(file, synced=synced)) for file in (path, *_further(path, contents).values())
-        ]
-        output = ResultOutput(suffix_of(path), contents, streams, path.parent, stack, partial(tracked, view=view))
-        try:
-            writer = output.writer()
-        except FormError as error:
-            raise click.ClickException(f"{path.as_posix()}: {error}") from error
-        yield writer
+def _writer(path: Path, stack: ExitStack, view: View, contents: FileContent, *, synced: bool) -> Writer:
+    """Open a file and further files next to it, which `stack` closes, and return their writer."""
+    files = (path, *_further(path, contents).values())
+    streams = [stack.enter_context(writing(file, synced=synced)) for file in files]
+    output = ResultOutput(suffix_of(path), contents, streams, path.parent, stack, partial(tracked, view=view))
+    try:
+        return output.writer()
+    except FormError as error:
+        raise click.ClickException(f"{path.as_posix()}: {error}") from error
