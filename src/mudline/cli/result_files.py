@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
@@ -22,18 +23,13 @@ from mudline.model.results.forms import (
     ResultTables,
     Sink,
     Writer,
-    form_module,
     table_path,
 )
 
 
 def is_installed(form: str) -> bool:
     """Return True if the library for a form of files is installed."""
-    try:
-        form_module(form)
-    except ImportError:
-        return False
-    return True
+    return not FORMS[form].library or find_spec(FORMS[form].library) is not None
 
 
 def require_library(form: str) -> None:

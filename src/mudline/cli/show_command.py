@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
@@ -88,19 +87,18 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
     printer = view.printer()
     names = unit_names(summary["units"])
     _print_head(printer, summary, names)
-    printer.table(set_table(summary["sets"], names))
-    tables: dict[str, Callable[[Rows, UnitNames], DisplayTable]] = {
-        "curves": _curves,
-        "diameters": partial(diameter_table, none="none"),
-        "laws": _laws,
-        "bed": _resistance,
-        "extensions": _extensions,
-        "static_embedment": partial(_static, left_out=summary["weights_without"], case=summary["contents_case"]),
-    }
-    for key, table in tables.items():
-        if rows := summary[key]:
-            printed = table(rows, names)
-            printer.table(printed.first(view.most, "diameter") if key == "diameters" else printed)
+    tables = (
+        set_table(summary["sets"], names),
+        _curves(summary["curves"], names),
+        diameter_table(summary["diameters"], names, none="none").first(view.most, "diameter"),
+        _laws(summary["laws"], names),
+        _resistance(summary["bed"], names),
+        _extensions(summary["extensions"]),
+        _static(summary["static_embedment"], names, summary["weights_without"], summary["contents_case"]),
+    )
+    for table in tables:
+        if table.rows:
+            printer.table(table)
 
 
 def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:
@@ -216,7 +214,7 @@ def _pair(values: list[float | None]) -> str:
     return ", ".join(shown(value) or "-" for value in values) if values != [None, None] else ""
 
 
-def _extensions(blocks: Rows, _: UnitNames) -> DisplayTable:
+def _extensions(blocks: Rows) -> DisplayTable:
     columns = (text("keyword", _keyword), text("set", "set"), number("elements", "elements"))
     return DisplayTable("Extensions", columns, blocks)
 
