@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
@@ -12,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mudline.api.commands import show
-from mudline.basics.display import DisplayTable, number, text
-from mudline.basics.quantities import UnitNames, shown, unit_names
+from mudline.basics.quantities import shown, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
@@ -24,8 +21,7 @@ from mudline.language.diagnostics import Coverage
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import SUBJECTS
 from mudline.model.results.forms.text import write_text
-from mudline.model.results.sheet_tables import sheet_data, sheet_tables
-from mudline.model.results.summary_tables import Rows, diameter_table, elements_of, set_table, static_table
+from mudline.model.results.summary_tables import sheet_data, sheet_tables, tables_of
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -85,24 +81,14 @@ def _form(output: str | None, output_format: str) -> str:
 def _print_summary(summary: dict[str, Any], view: View) -> None:
     """Print sections and keywords, then a table each of sets, curves, diameters and laws."""
     printer = view.printer()
-    names = unit_names(summary["units"])
-    _print_head(printer, summary, names)
-    tables = (
-        set_table(summary["sets"], names),
-        _curves(summary["curves"], names),
-        diameter_table(summary["diameters"], names, none="none").first(view.most, "diameter"),
-        _laws(summary["laws"], names),
-        _resistance(summary["bed"], names),
-        _extensions(summary["extensions"]),
-        _static(summary["static_embedment"], names, summary["weights_without"], summary["contents_case"]),
-    )
-    for table in tables:
-        if table.rows:
-            printer.table(table)
+    _print_head(printer, summary)
+    for table in tables_of(summary, view.most):
+        printer.table(table)
 
 
-def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:
-    length = f", {shown(summary['length'])} {names.length}".rstrip() + " long" if summary["length"] is not None else ""
+def _print_head(printer: Printer, summary: dict[str, Any]) -> None:
+    unit = unit_names(summary["units"]).behind("length")
+    length = f", {shown(summary['length'])}{unit} long" if summary["length"] is not None else ""
     seabed = " and ".join(summary["seabed"]) or "no"
     more = "+" if summary["sets"][0]["open"] else ""  # of ALL, which comes first
     counts = f"{summary['nodes']}{more} nodes, {summary['elements']}{more} elements{length}"
@@ -169,57 +155,3 @@ def _listed(printer: Printer, keywords: list[str]) -> str:
 def _print_folded(printer: Printer, text: str, indent: str) -> None:
     for line in wrap(text, printer.width, initial_indent=indent, subsequent_indent="      "):
         printer.line(line)
-
-
-def _curves(curves: Rows, names: UnitNames) -> DisplayTable:
-    columns = (
-        text("curve", "name"),
-        text("keyword", _keyword),
-        number("points", "points"),
-        number("ratio", lambda row: _range(row["ratios"])),
-        number("force", lambda row: _range(row["forces"]), names.line_force),
-        number("elements", elements_of),
-    )
-    return DisplayTable("Force-embedment curves", columns, curves)
-
-
-def _keyword(row: dict[str, Any]) -> str:
-    return f"*{row['keyword']}"
-
-
-def _range(ends: list[float] | None) -> str:
-    return "" if ends is None else f"{shown(ends[0])} to {shown(ends[1])}"
-
-
-def _laws(laws: Rows, names: UnitNames) -> DisplayTable:
-    stiffness = number("stiffness", "stiffness", names.stiffness, optional=True)
-    columns = (text("law", "law"), text("set", "set"), number("elements", "elements"), stiffness)
-    return DisplayTable("Normal laws", columns, laws)
-
-
-def _resistance(blocks: Rows, names: UnitNames) -> DisplayTable:
-    columns = (
-        text("set", "set"),
-        number("elements", "elements"),
-        number("friction\ncoefficients", lambda row: _pair(row["friction"]), optional=True),
-        number("mobilisation\nlengths", lambda row: _pair(row["mobilisation"]), names.length, optional=True),
-        number("lateral\nstiffness", "lateral", names.stiffness, optional=True),
-        number("suction\nstiffness", "suction", names.stiffness, optional=True),
-        number("suction\nzone", "extent", names.length, optional=True),
-    )
-    return DisplayTable("Friction, lateral resistance, suction", columns, blocks)
-
-
-def _pair(values: list[float | None]) -> str:
-    return ", ".join(shown(value) or "-" for value in values) if values != [None, None] else ""
-
-
-def _extensions(blocks: Rows) -> DisplayTable:
-    columns = (text("keyword", _keyword), text("set", "set"), number("elements", "elements"))
-    return DisplayTable("Extensions", columns, blocks)
-
-
-def _static(rows: Rows, names: UnitNames, left_out: Sequence[str], case: int | None) -> DisplayTable:
-    alike = len({(row["set"], row["law"], row["filled"]) for row in rows}) < len(rows)
-    table = static_table(rows, names, left_out, case, first=alike)
-    return replace(table, columns=[*table.columns, text("extrapolated", "extrapolated", optional=True)])

@@ -77,9 +77,6 @@ class PageHead(NamedTuple):
     fields: tuple[tuple[str, str], ...] = ()
 
 
-NO_DOCUMENT = PageHead()
-
-
 class Look(NamedTuple):
     """Look of a page: a template in place of the default, and a logo."""
 
@@ -120,7 +117,7 @@ def report_on(
     given: DeckFile,
     settings: LintSettings,
     requested: Collection[str],
-    document: PageHead = NO_DOCUMENT,
+    document: PageHead,
     *,
     rest_shape: bool = False,
 ) -> PageContent:
@@ -232,7 +229,10 @@ def _judged(given: DeckFile, settings: LintSettings) -> tuple[Verdict, Deck | No
 
 
 def _head(given: DeckFile, deck: Deck | None, verdict: Verdict, document: PageHead) -> dict[str, Any]:
-    """Return the head of the content: deck, state, program."""
+    """Return the head of the content: deck, state, program. The first line of a `*TITLE` is its title."""
+    sections = [] if deck is None else deck.own_sections
+    titles = (block for section in sections for block in section.blocks if block.keyword == "TITLE")
+    lines = (line.strip() for block in titles for line in getattr(block, "lines", ()))
     return {
         "format": FORMAT,
         "deck": given.name,
@@ -241,7 +241,7 @@ def _head(given: DeckFile, deck: Deck | None, verdict: Verdict, document: PageHe
         "version": __version__,
         "document": document._asdict()
         | {
-            "title": document.title or ("" if deck is None else _title(deck)),
+            "title": document.title or next(filter(None, lines), ""),
             "fields": [{"name": name, "value": value} for name, value in document.fields],
         },
         "units": None if deck is None else deck.units,
@@ -251,13 +251,6 @@ def _head(given: DeckFile, deck: Deck | None, verdict: Verdict, document: PageHe
         "sections": {},
         "missing": {},
     }
-
-
-def _title(deck: Deck) -> str:
-    """Return the first line of a `*TITLE`; "" without a title."""
-    blocks = (block for section in deck.own_sections for block in section.blocks if block.keyword == "TITLE")
-    lines = (line.strip() for block in blocks for line in getattr(block, "lines", ()))
-    return next(filter(None, lines), "")
 
 
 def _scene(deck: Deck | None) -> tuple[Scene | None, str]:

@@ -1,24 +1,36 @@
-"""HTML of a page, from tables of its content and jinja2 templates, which escape every text. Needs jinja2."""
+"""HTML of a page, from tables and pictures of its content and jinja2 templates, which escape every text.
+
+Needs jinja2 and matplotlib.
+"""
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from io import BytesIO
 from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+from xml.etree import ElementTree as ET
 
 import jinja2
+import matplotlib as mpl
 from jinja2.sandbox import SandboxedEnvironment
 from markupsafe import Markup
+from matplotlib.figure import Figure
 
 from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.checks.configuration import SEVERITIES
 from mudline.checks.output import visible
+from mudline.model.results.plots import can_draw, evaluation_figure, model_figure
+from mudline.model.results.plots.curves import curves_figure
+from mudline.model.results.plots.style import save
+from mudline.model.scene.curves import OF_SEABED
 from mudline.tools.reporting.content import Look, LookError, PageContent
-from mudline.tools.reporting.pictures import Picture
 from mudline.tools.reporting.tables import (
     DETAILS,
     TABLES,
@@ -41,7 +53,7 @@ _AROUND = 1
 """Lines of the deck shown above and below that of a finding."""
 
 
-def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: Look) -> str:
+def page(report: PageContent, look: Look) -> str:
     """Return the page about a deck. Raises LookError."""
     content = report.json
     sections = content["sections"]
@@ -60,6 +72,7 @@ def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: 
             details[name] = [*long, *details.get(name, ())]
     if report.study is not None:
         tables["study"] = study_tables(report.study)
+    pictures, pictures_left = pictures_of(report)
     return _rendered(
         look,
         "page.html",
@@ -76,8 +89,8 @@ def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: 
         by_rule={"findings": _by_rule(report, findings), "hidden": _by_rule(report, hidden)},
         most_inferred=_FEW_INFERRED,
         rules=report.named,
-        pictures=[picture._replace(markup=Markup(picture.markup)) for picture in pictures],  # noqa: S704 - made from our figures
-        pictures_left=left_out,
+        pictures=pictures,
+        pictures_left=pictures_left,
         most=MOST_FINDINGS,
     )
 
@@ -214,3 +227,97 @@ def _lines(report: PageContent, line: int) -> list[tuple[int, str]]:
     last = len(report.source.line_starts)
     around = range(max(1, line - _AROUND), min(last, line + _AROUND) + 1)
     return [(number, cut(report.source.line(number), _LONGEST_LINE)) for number in around]
+
+
+# ------------------------------------------------------------------------------------------------------------- pictures
+
+_MOST_PICTURES = 20
+_MOST_SINGLE, _MOST_TOGETHER = 2, 12
+"""Numbers of seabed curves with a picture of their own before the appendix, and in the one picture of more curves."""
+_MOST_BYTES = 600_000
+"""Bytes of all pictures of a page, which is to be sent by mail."""
+_LARGEST_SVG = 120_000
+
+_REFERENCE = re.compile(r"url\(#([^)]+)\)")
+
+
+class Picture(NamedTuple):
+    """A picture: its section and its markup."""
+
+    section: str
+    markup: Markup
+
+
+def pictures_of(report: PageContent) -> tuple[list[Picture], int]:
+    """Return the pictures of a page, inline SVG, or PNG if that is smaller, and the number of those left out."""
+    pictures: list[Picture] = []
+    size = left = 0
+    for place, (section, alternative, draw) in enumerate(_drawings(report)):
+        if len(pictures) == _MOST_PICTURES or size > _MOST_BYTES:
+            left += 1
+            continue
+        markup = _markup(draw(), f"p{place}", alternative)
+        size += len(markup)
+        pictures.append(Picture(section, Markup(markup)))  # noqa: S704 - made from our figures
+    return pictures, left
+
+
+def _drawings(report: PageContent) -> Iterator[tuple[str, str, Callable[[], Figure]]]:
+    """Yield each picture of the sections, the most important first, and the function that draws it."""
+    scene, sections, drawn, study = report.scene, report.json["sections"], report.drawn, report.study
+    if scene is None:
+        return
+    if sections.get("model") and can_draw(scene):
+        shape = "at its resting shape" if report.at_rest and drawn is not None else "in the deck's own coordinates"
+        words = f"Elevation and plan of the line {shape}, by set, over the seabed"
+        yield "model", words, partial(model_figure, scene, drawn)
+    if sections.get("contact") and drawn is not None:
+        words = "Contact along the line: its height, the seabed reaction, embedment and stiffness"
+        yield "contact", words, partial(evaluation_figure, drawn, report.doubt)
+    if study is not None and study.drawable:
+        words = "Error of the touchdown zone against run time, with the deck's own time step"
+        yield "study", words, study.figure
+    rows = (sections.get("curves") or {}).get("curves", ())
+    of_seabed = [row for row in rows if row["kind"] == OF_SEABED]
+    if several := len(of_seabed) > _MOST_SINGLE:
+        followed = {law["law"] for law in sections["curves"]["laws"] if law["elements"]}
+        of_seabed.sort(key=lambda row: f"curve:{row['name']}" not in followed)
+        words = f"{min(_MOST_TOGETHER, len(of_seabed))} of {len(of_seabed)} force-embedment curves"
+        yield "curves", words, partial(curves_figure, of_seabed[:_MOST_TOGETHER], scene.units)
+    for row in rows:
+        words = f"The {row['kind']} {visible(row['name'])}: {row['axes'][1]} over {row['axes'][0]}"
+        section = "curves" if row["kind"] == OF_SEABED and not several else "appendix"
+        yield section, words, partial(curves_figure, [row], scene.units)
+
+
+def _markup(figure: Figure, prefix: str, alternative: str) -> str:
+    """Return SVG without the parts that a page does not need; a large picture as PNG, whose size is bounded."""
+    stream = BytesIO()
+    with mpl.rc_context({"svg.fonttype": "none"}):  # texts stay texts
+        save(figure, "svg", stream)
+    root = ET.fromstring(stream.getvalue())  # noqa: S314 - matplotlib made it
+    _strip(root, prefix)
+    root.attrib.update({"role": "img", "aria-label": alternative})
+    for name in ("width", "height", "version"):
+        root.attrib.pop(name, None)
+    text = ET.tostring(root, encoding="unicode")
+    if len(text) <= _LARGEST_SVG:
+        return text
+    stream = BytesIO()
+    save(figure, "png", stream)
+    image = ET.Element("img", src=f"data:image/png;base64,{b64encode(stream.getvalue()).decode()}", alt=alternative)
+    return ET.tostring(image, encoding="unicode", method="html")
+
+
+def _strip(root: ET.Element, prefix: str) -> None:
+    """Remove namespaces and metadata, and make ids differ from those of other pictures."""
+    for element in list(root.iter()):
+        element.tag = element.tag.rpartition("}")[2]
+        for child in element.findall("{*}metadata"):
+            element.remove(child)
+        for name, value in list(element.attrib.items()):
+            short, mark = name.rpartition("}")[2], "#" if name.endswith("href") else ""
+            del element.attrib[name]
+            own = short == "id" or (mark and value.startswith(mark))
+            renamed = f"{mark}{prefix}-{value.removeprefix(mark)}" if own else value
+            element.set(short, _REFERENCE.sub(rf"url(#{prefix}-\1)", renamed))

@@ -32,11 +32,10 @@ def make_page(given: DeckFile, settings: LintSettings, wanted: Wanted) -> Made:
     report = report_on(given, settings, sections, document, rest_shape=rest_shape)
     if look is None:
         return Made(report.json, None)
-    from mudline.tools.reporting.page import page  # noqa: PLC0415 - needs jinja2
-    from mudline.tools.reporting.pictures import pictures_of  # noqa: PLC0415 - needs matplotlib
+    from mudline.tools.reporting.page import page  # noqa: PLC0415 - needs jinja2 and matplotlib
 
     try:
-        return Made(report.json, page(report, *pictures_of(report), look))
+        return Made(report.json, page(report, look))
     except LookError as error:
         return Made(report.json, None, str(error))
 
@@ -93,8 +92,10 @@ class Pages:
     def _row(self, content: dict[str, Any], name: str, page: Path | None) -> dict[str, Any]:
         """Return a row of the index; decks below the working folder have paths relative to it."""
         verdict = content["verdict"]
+        words = verdict["verdict"].partition(" (")[0]
+        kind = "errors" if verdict["errors"] else words
         address = "" if page is None or self.index is None else relative_path(page, self.index.parent)
         counts = {name: verdict[name] for name in ("errors", "warnings")}
         counts |= {name: verdict["keywords"][name] for name in ("read", "total")}
         deck = content["deck"] if os.path.isabs(name) else name  # noqa: PTH117 - Path raises for a long name
-        return {"deck": deck, "page": address, "verdict": verdict["verdict"].partition(" (")[0], **counts}
+        return {"deck": deck, "page": address, "verdict": words, "kind": kind, **counts}

@@ -9,13 +9,13 @@ from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import UnitNames, labelled, shown
 from mudline.basics.short_repr import counted, cut
-from mudline.model.results.sheet_tables import sheet_tables
 from mudline.model.results.summary_tables import (
     OPEN,
     diameter_table,
     elements_of,
     law_table,
     set_table,
+    sheet_tables,
     static_table,
     weight_note,
 )
