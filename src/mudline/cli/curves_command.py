@@ -12,7 +12,7 @@ from mudline.basics.quantities import UnitNames, csv_lines, labelled, shown, uni
 from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.plots import Plot, plot_option
+from mudline.cli.plots import Plot, plot_option, write_plot
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
 from mudline.model.results.curve_rows import curve_rows, diameters_on, used_curves
@@ -68,7 +68,7 @@ def command(
         rows = curve_rows(scene, ratios, weight)
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    plot.write(lambda plots: plots.curves.curves_figure(rows, scene.units))
+    write_plot(plot, lambda plots: plots.curves.curves_figure(rows, scene.units))
     if output_format == "json":
         emit_json(rows)
     elif output_format == "csv":

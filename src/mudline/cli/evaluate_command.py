@@ -20,7 +20,7 @@ from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
-from mudline.cli.plots import Plot, numbers_of_elements, plot_option
+from mudline.cli.plots import Plot, numbers_of_elements, plot_option, write_plot
 from mudline.cli.result_files import beside, require_library, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
@@ -103,12 +103,12 @@ def command(
     if len(decks) > 1 or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
         raise click.UsageError("evaluate takes one deck: several decks and folders are for mudline batch")
     if summary_only:
-        for option, given in {"--against": against, "--plot": plot.path, "--plan": plan_only}.items():
+        for option, given in {"--against": against, "--plot": plot, "--plan": plan_only}.items():
             if given:
                 raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
         if inputs.positions is None:
             raise click.UsageError("--summary-only is for time steps: give a series with --positions")
-    if plot_elements and plot.path is None:
+    if plot_elements and plot is None:
         raise click.UsageError("--plot-elements is for a plot: give --plot")
     form = options.form_of_file(output, FORMS) if output else ""
     if form:
@@ -152,7 +152,7 @@ def _evaluate_one(
     output, view = wanted.output, wanted.view
     comparison = read_file(against, lambda file: ResultComparison(file, evaluation)) if against else None
     try:
-        drawing = None if plot.path is None else PlotData.of_evaluation(evaluation, plot_elements)
+        drawing = None if plot is None else PlotData.of_evaluation(evaluation, plot_elements)
     except ValueError as error:
         raise click.UsageError(f"--plot-elements: {error}") from error
     if not view.quiet:
@@ -168,7 +168,7 @@ def _evaluate_one(
             sink.finish(warnings)
     if drawing is not None:
         doubt = caption(warnings)
-        plot.write(lambda plots: plots.evaluation_figure(drawing, doubt), view)
+        write_plot(plot, lambda plots: plots.evaluation_figure(drawing, doubt), view)
     if not view.quiet:
         _notify_after(watch, slow, output, beside(Path(output)) if output else {})
     if screen is not None:
@@ -214,7 +214,7 @@ def _sink(
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer | None], view: View, *, bar: bool) -> None:
     """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
     with Progress(evaluation.steps, view, shown=bar) as progress:
-        evaluation.run((one for one in consumers if one is not None), progress.advance)
+        evaluation.run([one for one in consumers if one is not None], progress.advance)
 
 
 # ----------------------------------------------------------------------------------------------------------- notes

@@ -23,13 +23,10 @@ def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # 
         if finding.line == finding.end_line:
             values |= {"col": finding.column, "endColumn": max(finding.column, finding.end_column - 1)}
         values["title"] = f"{finding.code} {finding.slug}"
-        written = ",".join(f"{name}={_property(str(value))}" for name, value in values.items())
+        plain = {name: _data(str(value)).replace(":", "%3A").replace(",", "%2C") for name, value in values.items()}
+        written = ",".join(f"{name}={value}" for name, value in plain.items())
         yield f"::{_COMMANDS[finding.severity]} {written}::{_data(visible(finding.message))}\n"
 
 
 def _data(text: str) -> str:
     return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
-
-
-def _property(text: str) -> str:
-    return _data(text).replace(":", "%3A").replace(",", "%2C")

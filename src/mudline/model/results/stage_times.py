@@ -164,17 +164,12 @@ def with_added(given: ContactInput, stage: str) -> ContactInput | None:
         return None
     if stage == "smoothing":
         return _smoothed(given)
-    names = _ADDED.get(stage, (stage,))
-    if given.has("friction"):
-        names = tuple(name for name in names if name != "friction")
+    needed = ("friction", "trench peak") if stage == "trench" else (stage,)
+    names = [name for name in needed if not given.has(name)]
     nodes = np.unique(given.element_nodes[rows])
     usual = _usual(given, rows)
     added = [LawAssignment(name, nodes if law_named(name).acts_on == "nodes" else rows, usual[name]) for name in names]
     return replace(given, laws=(*given.laws, *added))
-
-
-_ADDED: dict[str, tuple[str, ...]] = {"trench": ("friction", "trench peak")}
-"""Laws added for a stage, if their name is not that of the stage."""
 
 
 def _smoothed(given: ContactInput) -> ContactInput | None:

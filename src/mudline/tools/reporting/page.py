@@ -64,14 +64,17 @@ def page(report: PageContent, look: Look) -> str:
     )
     if inputs := sections.get("inputs"):
         tables["inputs"] = list(input_tables(inputs, report.sheet, content["deck"]))
-    figures = content.get("figures")
+    figures, document = content.get("figures"), content["document"]
+    revision = f"revision {document['revision']}" if document["revision"] else None
     findings = _groups(report, "reported", lambda severity: severity != "info")
     hidden = _groups(report, "hidden")
     for name, each in tables.items():
         if long := [table for table in each if len(table.rows) > table.few]:
             details[name] = [*long, *details.get(name, ())]
-    if report.study is not None:
-        tables["study"] = study_tables(report.study)
+    study, study_texts = report.study, [""]
+    if study is not None:
+        tables["study"] = study_tables(study)
+        study_texts = [description(study), *(words for part in study.parts for words in sentences(study, part))]
     pictures, pictures_left = pictures_of(report)
     return _rendered(
         look,
@@ -80,9 +83,9 @@ def page(report: PageContent, look: Look) -> str:
         tables=tables,
         details=details,
         figures=figure_table(figures, names) if figures and not figures["missing"] else None,
-        head=_css_text(_head_words(content)),
+        head=_css_text(", ".join(filter(None, [document["number"], revision, content["deck"]]))),
         hash=_css_text(f"SHA-256 {content['sha256'][:_SHORT_HASH]}"),
-        study_texts=_study_texts(report),
+        study_texts=filter(None, study_texts),
         findings=findings,
         infos=_groups(report, "reported", lambda severity: severity == "info"),
         hidden=hidden,
@@ -98,26 +101,10 @@ def page(report: PageContent, look: Look) -> str:
 _SHORT_HASH = 16
 
 
-def _head_words(content: dict[str, Any]) -> str:
-    """Return document, revision and deck, as printed at the head of every page."""
-    document = content["document"]
-    revision = f"revision {document['revision']}" if document["revision"] else None
-    return ", ".join(filter(None, [document["number"], revision, content["deck"]]))
-
-
 def _css_text(text: str) -> Markup:
     """Return a text in quotes for the style of a page; all but letters and digits are escaped."""
     plain = (letter if letter.isascii() and letter.isalnum() else f"\\{ord(letter):x} " for letter in visible(text))
     return Markup(f'"{"".join(plain)}"')  # noqa: S704 - letters, digits and character numbers
-
-
-def _study_texts(report: PageContent) -> list[str]:
-    """Return the sentences of a study, next to its tables."""
-    study = report.study
-    if study is None:
-        return []
-    remarks = [text for part in study.parts for text in sentences(study, part)]
-    return [text for text in (description(study), *remarks) if text]
 
 
 def index_page(rows: Sequence[dict[str, Any]], version: str, look: Look) -> str:

@@ -158,10 +158,15 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable
     title = f"Equilibrium of {_SHAPES[content['positions']]}"
     yield on_page(DisplayTable(title, _FIGURES, figures, "; ".join(filter(None, notes))))
     yield on_page(law_table("By law and set", content["laws"], names, "reaction"), MOST_CURVES)
+
+    def of_line(line: dict[str, Any]) -> str:
+        places = (point["arc_length"] for point in line["touchdown"])
+        return _touchdown(places, line["contact_length"], line["length"])
+
     columns = [
         number("line", "line"),
         text("elements", lambda row: f"{row['first_element']} to {row['last_element']}"),
-        number("touchdown at arc length", _touchdown_of_line, names.length),
+        number("touchdown at arc length", of_line, names.length),
         number("length in contact", "contact_length", names.length),
         number("largest force", lambda row: (row["largest_force"] or {}).get("force"), names.line_force),
         number("reaction", "reaction", names.force, missing=NOT_KNOWN),
@@ -178,11 +183,6 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable
 def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
     columns = [text("law", "law"), text("state", "state"), number("count", "count")]
     yield on_page(DisplayTable("States", columns, content["states"]))
-
-
-def _touchdown_of_line(line: dict[str, Any]) -> str:
-    places = [point["arc_length"] for point in line["touchdown"]]
-    return _touchdown(places, line["contact_length"], line["length"])
 
 
 def _touchdown(places: Iterable[float], in_contact: float, length: float) -> str:
