@@ -1,19 +1,17 @@
 """Output formats of findings, a module each, imported when it is used, and the functions that they share.
 
 Each module here is a format with the module's name: `SUMMARY` is a sentence for the documentation, `write(diagnostics,
-run)` returns the text of findings in pieces. `text`, the format for people, is printed by the command as findings come.
+files)` returns the text of findings in pieces; `files` are the linted files in their order. `text`, the format for
+people, is printed by the command as findings come.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
 from hashlib import sha256
 from importlib import import_module
 from pkgutil import iter_modules
 from types import ModuleType
-from typing import NamedTuple
 
 from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.basics.short_repr import cut
@@ -28,13 +26,6 @@ TEXT_SUMMARY = "for people: place, message, the source line with a mark; standar
 _REPLACEMENT = "\ufffd"
 
 
-class LintRun(NamedTuple):
-    """Context of a run for a format: the files linted, in their order, and the version of mudline."""
-
-    files: Sequence[str]
-    version: str
-
-
 def form_names() -> list[str]:
     """Return the name of every format except text, without importing one."""
     return sorted(module.name for module in iter_modules(__path__))
@@ -43,11 +34,6 @@ def form_names() -> list[str]:
 def form_module(name: str) -> ModuleType:
     """Return the module of a format."""
     return import_module(f"{__name__}.{name}")
-
-
-def form(name: str, files: Sequence[str], version: str) -> Callable[[Iterable[Diagnostic]], Iterator[str]]:
-    """Return the function that writes findings in a format; `files` and `version` are those of `LintRun`."""
-    return partial(form_module(name).write, run=LintRun(files, version))
 
 
 class Fingerprints:

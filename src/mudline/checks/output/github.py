@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
-from mudline.checks.output import LintRun, visible
+from mudline.checks.output import visible
 from mudline.language.diagnostics import Diagnostic, Severity
 
 SUMMARY = "workflow commands, shown as annotations of a change"
@@ -12,7 +12,7 @@ SUMMARY = "workflow commands, shown as annotations of a change"
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
 
-def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
+def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """Yield a command for each finding; columns, the last one included, are given if a finding lies in one line."""
     for finding in diagnostics:
         values: dict[str, str | int] = {

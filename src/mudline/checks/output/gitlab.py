@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from mudline.checks.output import Fingerprints, LintRun, visible
+from mudline.checks.output import Fingerprints, visible
 from mudline.checks.output.json import array
 from mudline.language.diagnostics import Diagnostic, Severity
 
@@ -16,7 +16,7 @@ SUMMARY = "a code quality report; fingerprints do not depend on line numbers"
 _SEVERITIES = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.INFO: "info"}
 
 
-def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
+def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """Return one array, an object a line; `[]` without findings."""
     fingerprints = Fingerprints()
     placed = (replace(finding, file=_path(finding.file)) for finding in diagnostics)

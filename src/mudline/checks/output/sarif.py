@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 from urllib.parse import quote
 
-from mudline.checks.output import Fingerprints, LintRun, visible
+from mudline.basics.version import __version__
+from mudline.checks.output import Fingerprints, visible
 from mudline.checks.pages import page
 from mudline.checks.registry import rules
 from mudline.language.diagnostics import Diagnostic, Edit, Severity
@@ -24,7 +25,7 @@ _BASE = "ROOT"
 _NO_RULE = "This is not a rule and cannot be ignored; the message says why the file could not be used or checked."
 
 
-def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """Yield one log with one run; its rules are those with findings."""
     listed = list(diagnostics)
     first = {finding.code: finding for finding in reversed(listed)}
@@ -32,8 +33,8 @@ def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
     fingerprints = Fingerprints()
     driver = {
         "name": "mudline",
-        "version": run.version,
-        "semanticVersion": run.version,
+        "version": __version__,
+        "semanticVersion": __version__,
         "rules": [_descriptor(first[code]) for code in codes],
     }
     head = {"$schema": SCHEMA, "version": "2.1.0"}
