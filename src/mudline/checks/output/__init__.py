@@ -8,6 +8,7 @@ people, is printed by the command as findings come.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable, Iterator
 from hashlib import sha256
 from importlib import import_module
 from pkgutil import iter_modules
@@ -36,18 +37,14 @@ def form_module(name: str) -> ModuleType:
     return import_module(f"{__name__}.{name}")
 
 
-class Fingerprints:
-    """Hashes of path, code and message, without the line number; equal findings are counted."""
-
-    def __init__(self) -> None:
-        self._met: Counter[tuple[str, str, str]] = Counter()
-
-    def of(self, found: Diagnostic) -> str:
-        """Return the hash of a finding, in the order of the findings; no two of a run are equal."""
+def with_fingerprints(diagnostics: Iterable[Diagnostic]) -> Iterator[tuple[Diagnostic, str]]:
+    """Yield each finding with a hash of path, code and message, without the line number; equal findings are counted."""
+    met: Counter[tuple[str, str, str]] = Counter()
+    for found in diagnostics:
         known = (found.file, found.code, found.message)
-        self._met[known] += 1
-        text = "\0".join([*known, str(self._met[known])])
-        return sha256(text.encode("utf-8", "backslashreplace")).hexdigest()
+        met[known] += 1
+        text = "\0".join([*known, str(met[known])])
+        yield found, sha256(text.encode("utf-8", "backslashreplace")).hexdigest()
 
 
 def visible(text: str, encoding: str = "utf-8") -> str:

@@ -10,7 +10,7 @@ from typing import Any
 from urllib.parse import quote
 
 from mudline.basics.version import __version__
-from mudline.checks.output import Fingerprints, visible
+from mudline.checks.output import visible, with_fingerprints
 from mudline.checks.pages import page
 from mudline.checks.registry import rules
 from mudline.language.diagnostics import Diagnostic, Edit, Severity
@@ -30,7 +30,6 @@ def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[s
     listed = list(diagnostics)
     first = {finding.code: finding for finding in reversed(listed)}
     codes = sorted(first)
-    fingerprints = Fingerprints()
     driver = {
         "name": "mudline",
         "version": __version__,
@@ -45,8 +44,8 @@ def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[s
         "originalUriBaseIds": {_BASE: {"description": {"text": "the folder that the linter was run in"}}},
     }
     yield f'{json.dumps(head)[:-1]}, "runs": [\n{json.dumps(log)[:-1]}, "results": ['
-    for number, finding in enumerate(listed):
-        result = _result(finding, codes.index(finding.code), fingerprints.of(finding))
+    for number, (finding, fingerprint) in enumerate(with_fingerprints(listed)):
+        result = _result(finding, codes.index(finding.code), fingerprint)
         yield f"{',' * (number > 0)}\n {json.dumps(result)}"
     yield "\n]}]}\n"
 
