@@ -6,22 +6,15 @@ import os
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from mudline.basics.paths import relative_path
 from mudline.basics.version import __version__
 from mudline.checks.engine import LintSettings
 from mudline.tools.reporting.content import DeckFile, Look, LookError, PageHead, report_on
 
-
-class Made(NamedTuple):
-    """Result of making a page: its content, its HTML (None if not requested), and the reason for a failure."""
-
-    content: dict[str, Any]
-    html: str | None
-    fault: str = ""
-
-
+Made = tuple[dict[str, Any], str | LookError | None]
+"""Content of a page, and its HTML, None if not requested, or the fault of its look."""
 Wanted = tuple[tuple[str, ...], PageHead, Look | None, bool]
 """Sections of a page, its head, its look (None for JSON), and True for contact at the resting shape."""
 
@@ -31,13 +24,13 @@ def make_page(given: DeckFile, settings: LintSettings, wanted: Wanted) -> Made:
     sections, document, look, rest_shape = wanted
     report = report_on(given, settings, sections, document, rest_shape=rest_shape)
     if look is None:
-        return Made(report.json, None)
+        return report.json, None
     from mudline.tools.reporting.page import page  # noqa: PLC0415 - needs jinja2 and matplotlib
 
     try:
-        return Made(report.json, page(report, look))
+        return report.json, page(report, look)
     except LookError as error:
-        return Made(report.json, None, str(error))
+        return report.json, error
 
 
 class Pages:
@@ -62,12 +55,13 @@ class Pages:
 
     def add(self, result: Made, name: str) -> None:
         """Write the page about a deck; raises LookError."""
-        if result.fault:
-            raise LookError(result.fault)
-        page = None if result.html is None else self._page(name)
-        if page is not None and result.html is not None:
-            self._write(page, result.html)
-        self.rows.append(self._row(result.content, name, page))
+        content, html = result
+        if isinstance(html, LookError):
+            raise html
+        page = None if html is None else self._page(name)
+        if page is not None and html is not None:
+            self._write(page, html)
+        self.rows.append(self._row(content, name, page))
 
     def finish(self, look: Look) -> None:
         """Write the index, if there is one; raises LookError."""
