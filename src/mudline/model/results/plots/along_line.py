@@ -32,8 +32,8 @@ from mudline.model.scene.numbering import Floats, Indices
 
 MOST_LINES = 6
 """Largest number of drawn lines."""
-_BESIDE = 0.15
-"""Part of the stretch in contact that is drawn on both sides of it."""
+_BESIDE, _BESIDE_CHANGES = (0.15, 2.0), (0.5, 3.0)
+"""Part of the stretch in contact, or of that with changes, drawn on both sides of it; at least so many elements."""
 _CHANGE = 0.01
 """Change of the embedment between neighbours where contact changes, as a part of the deepest embedment."""
 _MARKED = 80
@@ -79,18 +79,15 @@ class DrawnStretch:
         half = 0.5 * data.given.length
         begin, end = lines.element_arc - half, lines.element_arc + half
         self.limits = (float(begin[shown].min()), float(end[shown].max())) if drawn else (0.0, 1.0)
-        if (touching := shown & data.touched).any():
-            low, high = float(begin[touching].min()), float(end[touching].max())
-            beside = max(_BESIDE * (high - low), 2.0 * float(data.given.length[touching].max()))
-            self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
-        changes = np.concatenate([self._changes(line) for line in drawn]) if drawn else np.zeros(0, np.intp)
-        parts = []
-        if changes.size:
-            low, high = float(begin[changes].min()), float(end[changes].max())
-            beside = max(0.5 * (high - low), 3.0 * float(data.given.length[changes].max()))
-            self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
-            sides = (touching & (end <= self.limits[0]), touching & (begin >= self.limits[1]))
-            parts = [f"{begin[side].min():.5g} to {end[side].max():.5g}" for side in sides if side.any()]
+        touching = shown & data.touched
+        changes = np.concatenate([np.zeros(0, np.intp), *map(self._changes, drawn)])
+        for near, share, lengths in ((np.flatnonzero(touching), *_BESIDE), (changes, *_BESIDE_CHANGES)):
+            if near.size:
+                low, high = float(begin[near].min()), float(end[near].max())
+                beside = max(share * (high - low), lengths * float(data.given.length[near].max()))
+                self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
+        sides = (touching & (end <= self.limits[0]), touching & (begin >= self.limits[1])) if changes.size else ()
+        parts = [f"{begin[side].min():.5g} to {end[side].max():.5g}" for side in sides if side.any()]
         where = f"{' and '.join(parts)}{unit_names(data.given.units).behind('length')}"
         self.beyond = f"where contact changes: {where} in contact, not drawn" if parts else ""
         self.lines = []
