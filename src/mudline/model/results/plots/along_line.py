@@ -81,10 +81,10 @@ class DrawnStretch:
         self.limits = (float(begin[shown].min()), float(end[shown].max())) if drawn else (0.0, 1.0)
         touching = shown & data.touched
         changes = np.concatenate([np.zeros(0, np.intp), *map(self._changes, drawn)])
-        for near, share, lengths in ((np.flatnonzero(touching), *_BESIDE), (changes, *_BESIDE_CHANGES)):
-            if near.size:
-                low, high = float(begin[near].min()), float(end[near].max())
-                beside = max(share * (high - low), lengths * float(data.given.length[near].max()))
+        for part, share, lengths in ((np.flatnonzero(touching), *_BESIDE), (changes, *_BESIDE_CHANGES)):
+            if part.size:
+                low, high = float(begin[part].min()), float(end[part].max())
+                beside = max(share * (high - low), lengths * float(data.given.length[part].max()))
                 self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
         sides = (touching & (end <= self.limits[0]), touching & (begin >= self.limits[1])) if changes.size else ()
         parts = [f"{begin[side].min():.5g} to {end[side].max():.5g}" for side in sides if side.any()]
