@@ -31,15 +31,7 @@ from mudline.model.results.plots.curves import curves_figure
 from mudline.model.results.plots.style import save
 from mudline.model.scene.curves import OF_SEABED
 from mudline.tools.reporting.content import Look, LookError, PageContent
-from mudline.tools.reporting.tables import (
-    DETAILS,
-    TABLES,
-    figure_table,
-    four_digits,
-    input_tables,
-    on_page,
-    study_tables,
-)
+from mudline.tools.reporting.tables import figure_table, four_digits, on_page, page_tables
 from mudline.tools.touchdown_study.screen import description, sentences
 
 MOST_FINDINGS = 500
@@ -56,24 +48,13 @@ _AROUND = 1
 def page(report: PageContent, look: Look) -> str:
     """Return the page about a deck. Raises LookError."""
     content = report.json
-    sections = content["sections"]
-    names = unit_names(content["units"])
-    tables, details = (
-        {name: list(shape(sections[name], names)) for name, shape in each.items() if sections.get(name)}
-        for each in (TABLES, DETAILS)
-    )
-    if inputs := sections.get("inputs"):
-        tables["inputs"] = list(input_tables(inputs, report.sheet, content["deck"]))
+    tables, details = page_tables(report)
     figures, document = content.get("figures"), content["document"]
     revision = f"revision {document['revision']}" if document["revision"] else None
     findings = _groups(report, "reported", lambda severity: severity != "info")
     hidden = _groups(report, "hidden")
-    for name, each in tables.items():
-        if long := [table for table in each if len(table.rows) > table.few]:
-            details[name] = [*long, *details.get(name, ())]
     study, study_texts = report.study, [""]
     if study is not None:
-        tables["study"] = study_tables(study)
         study_texts = [description(study), *(words for part in study.parts for words in sentences(study, part))]
     pictures, pictures_left = pictures_of(report)
     return _rendered(
@@ -82,7 +63,7 @@ def page(report: PageContent, look: Look) -> str:
         report=content,
         tables=tables,
         details=details,
-        figures=figure_table(figures, names) if figures and not figures["missing"] else None,
+        figures=figure_table(figures, unit_names(content["units"])) if figures and not figures["missing"] else None,
         head=_css_text(", ".join(filter(None, [document["number"], revision, content["deck"]]))),
         hash=_css_text(f"SHA-256 {content['sha256'][:_SHORT_HASH]}"),
         study_texts=filter(None, study_texts),

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import UnitNames, labelled, shown
+from mudline.basics.quantities import UnitNames, labelled, shown, unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.model.results.summary_tables import (
     OPEN,
@@ -22,8 +22,8 @@ from mudline.model.results.summary_tables import (
 from mudline.model.results.totals import NOT_KNOWN, touchdown_words
 from mudline.model.scene.curves import OF_SEABED
 from mudline.model.scene.sheet import Sheet
+from mudline.tools.reporting.content import PageContent
 from mudline.tools.touchdown_study.screen import TABLES as STUDY_TABLES
-from mudline.tools.touchdown_study.study import Study
 
 MOST_CURVES = 50
 """Curves and sets that a page shows."""
@@ -38,6 +38,26 @@ _ALL = "the JSON of this report has all"
 def on_page(table: DisplayTable, most: int = SHOWN_ROWS) -> DisplayTable:
     """Return a table with at most `most` rows, and without empty columns."""
     return table.filled().first(most, advice=_ALL)
+
+
+def page_tables(report: PageContent) -> tuple[dict[str, list[DisplayTable]], dict[str, list[DisplayTable]]]:
+    """Return the tables by section, and those of the appendix, which has the long ones too."""
+    content, names = report.json, unit_names(report.json["units"])
+    sections = content["sections"]
+    of_section = {"model": _model, "curves": _curves, "contact": _contact}
+    of_appendix = {"model": _model_details, "curves": _curve_points, "contact": _states, "plan": _plan}
+    tables, details = (
+        {name: list(shape(sections[name], names)) for name, shape in each.items() if sections.get(name)}
+        for each in (of_section, of_appendix)
+    )
+    if inputs := sections.get("inputs"):
+        tables["inputs"] = list(_inputs(inputs, report.sheet, content["deck"]))
+    for name, each in tables.items():
+        if long := [table for table in each if len(table.rows) > table.few]:
+            details[name] = [*long, *details.get(name, ())]
+    if (study := report.study) is not None:
+        tables["study"] = [on_page(table) for part in study.parts if (table := STUDY_TABLES[part](study))]
+    return tables, details
 
 
 _SHAPES = {"deck": "the deck's own coordinates", "rest shape": "the resting shape"}
@@ -69,7 +89,7 @@ def four_digits(value: float | None) -> str:
 _PLAIN = 1e7
 
 
-def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str) -> Iterator[DisplayTable]:
+def _inputs(content: dict[str, Any], sheet: Sheet | None, deck: str) -> Iterator[DisplayTable]:
     """Yield the inputs of a deck and of the decks that it continues, and the sheet of the elements."""
     columns = (
         text("section", "section"),
@@ -189,29 +209,8 @@ def _touchdown(places: Iterable[float], in_contact: float, length: float) -> str
     return touchdown_words([float(four_digits(each)) for each in places], in_contact, length, _MOST_TOUCHDOWNS)
 
 
-def study_tables(result: Study) -> list[DisplayTable]:
-    """Return the tables of a study as on the terminal."""
-    return [on_page(table) for part in result.parts if (table := STUDY_TABLES[part](result))]
-
-
 def _plan(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
     stages = content["stages"]
     columns = (text("stage", "stage"), text("in or out", lambda row: "in" if row["active"] else "left out"))
     table = DisplayTable(f"Stages of the evaluation, {content['steps']}", [*columns, text("why", "why")], stages)
     yield on_page(table, len(stages))
-
-
-TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[DisplayTable]]] = {
-    "model": _model,
-    "curves": _curves,
-    "contact": _contact,
-}
-"""Functions that make the tables of a section."""
-
-DETAILS: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[DisplayTable]]] = {
-    "model": _model_details,
-    "curves": _curve_points,
-    "contact": _states,
-    "plan": _plan,
-}
-"""Functions that make the tables of a section in the appendix."""
