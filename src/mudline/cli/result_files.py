@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from importlib.util import find_spec
@@ -56,9 +56,9 @@ def result_files(
         yield Sink(evaluation, suffix_of(path), partial(_writer, path, stack, view, synced=synced), comparison)
 
 
-def beside(path: Path) -> dict[str, Path]:
-    """Return the files of the further tables next to that of the elements, by the names of the tables."""
-    return {table: table_path(path, table) for table in FORMS[suffix_of(path)].beside}
+def beside(path: Path, tables: Sequence[str] = ("nodes", "summary")) -> dict[str, Path]:
+    """Return the files of further tables next to that of the elements, by their names; empty if one file holds all."""
+    return {table: table_path(path, table) for table in tables} if FORMS[suffix_of(path)].beside else {}
 
 
 def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:
@@ -68,17 +68,12 @@ def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:
     """
     with ExitStack() as stack:
         tables.write(_writer(path, stack, View(quiet=True), tables.contents, synced=True))
-    return _further(path, tables.contents)
-
-
-def _further(path: Path, contents: FileContent) -> dict[str, Path]:
-    _, *others = contents.rows
-    return {table: table_path(path, table) for table in others} if beside(path) else {}
+    return beside(path, [*tables.contents.rows][1:])
 
 
 def _writer(path: Path, stack: ExitStack, view: View, contents: FileContent, *, synced: bool) -> Writer:
     """Open a file and further files next to it, which `stack` closes, and return their writer."""
-    files = (path, *_further(path, contents).values())
+    files = (path, *beside(path, [*contents.rows][1:]).values())
     streams = [stack.enter_context(writing(file, synced=synced)) for file in files]
     output = ResultOutput(suffix_of(path), contents, streams, path.parent, stack, partial(tracked, view=view))
     try:

@@ -180,7 +180,7 @@ def touchdown(axes: Axes, stretch: DrawnStretch) -> None:
 def reaction(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the total reaction over time."""
     data = stretch.data
-    _band(axes, data, data.reaction, Style(COLORS[0], "-", "o"), None)
+    _band(axes, data, data.reaction, style_of(0), None)
     axes.set_ylabel(STEPS["reaction"].axis(data.given.units))
 
 

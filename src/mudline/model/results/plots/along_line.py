@@ -13,7 +13,6 @@ from matplotlib.text import Annotation
 from mudline.basics.quantities import ELEMENTS, NODES, SLIDING, STATES, labelled, time_unit, unit_names
 from mudline.model.results.plot_data import Chosen, Extents, PlotData
 from mudline.model.results.plots.style import (
-    COLORS,
     LIGHT,
     SEABED,
     STATE_STYLES,
@@ -95,9 +94,8 @@ class DrawnStretch:
             elements = lines.elements[line][evaluated[lines.elements[line]]]
             arcs, node_arcs = lines.element_arc[elements], lines.node_arcs(line, data.given.length)
             here, near = self._within(arcs), self._within(node_arcs)
-            style = style_of(place) if len(drawn) > 1 else Style(COLORS[0], "-", "o")
             nodes = lines.nodes[line][near]
-            self.lines.append(DrawnLine(line, style, elements[here], arcs[here], nodes, node_arcs[near]))
+            self.lines.append(DrawnLine(line, style_of(place), elements[here], arcs[here], nodes, node_arcs[near]))
 
     def _changes(self, line: int) -> Indices:
         """Return the elements of a line where contact begins or ends, or the embedment changes, at any step."""
