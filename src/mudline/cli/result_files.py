@@ -23,7 +23,6 @@ from mudline.model.results.forms import (
     ResultTables,
     Sink,
     Writer,
-    table_path,
 )
 
 
@@ -58,7 +57,8 @@ def result_files(
 
 def beside(path: Path, tables: Sequence[str] = ("nodes", "summary")) -> dict[str, Path]:
     """Return the files of further tables next to that of the elements, by their names; empty if one file holds all."""
-    return {table: table_path(path, table) for table in tables} if FORMS[suffix_of(path)].beside else {}
+    separate = FORMS[suffix_of(path)].beside
+    return {table: path.with_name(f"{path.stem}-{table}{path.suffix}") for table in tables} if separate else {}
 
 
 def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:

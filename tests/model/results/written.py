@@ -13,8 +13,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.cli.result_files import beside
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.forms import FORMS, FileContent, ResultOutput, Sink, Writer, table_path
+from mudline.model.results.forms import FileContent, ResultOutput, Sink, Writer
 from mudline.model.results.forms.text import text_writer
 from mudline.model.results.totals import step_totals
 
@@ -42,7 +43,7 @@ def write(evaluation: Evaluation, path: Path) -> Path:
     """Write an evaluation in the form of the suffix, as the command does."""
     form = path.suffix[1:]
     with ExitStack() as stack:
-        paths = [path, *(table_path(path, table) for table in FORMS[form].beside)]
+        paths = [path, *beside(path).values()]
         streams = [stack.enter_context(one.open("wb")) for one in paths]
 
         def writer(contents: FileContent) -> Writer:

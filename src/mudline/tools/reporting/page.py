@@ -57,7 +57,7 @@ def page(report: PageContent, look: Look) -> str:
     if study is not None:
         study_texts = [description(study), *(words for part in study.parts for words in sentences(study, part))]
     pictures, pictures_left = pictures_of(report)
-    return _rendered(
+    return rendered(
         look,
         "page.html",
         report=content,
@@ -88,12 +88,8 @@ def _css_text(text: str) -> Markup:
     return Markup(f'"{"".join(plain)}"')  # noqa: S704 - letters, digits and character numbers
 
 
-def index_page(rows: Sequence[dict[str, Any]], version: str, look: Look) -> str:
-    """Return the index of many pages, whose `rows` have the names that the template uses. Raises LookError."""
-    return _rendered(look._replace(template=None), "index.html", rows=rows, version=version)
-
-
-def _rendered(look: Look, name: str, **values: object) -> str:
+def rendered(look: Look, name: str, **values: object) -> str:
+    """Return a template with values, which has the given one in place of the default. Raises LookError."""
     loaders: list[jinja2.BaseLoader] = [jinja2.PackageLoader("mudline.tools.reporting")]
     if look.template is not None:
         loaders.insert(0, jinja2.FileSystemLoader(look.template.parent))

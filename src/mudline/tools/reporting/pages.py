@@ -66,9 +66,10 @@ class Pages:
     def finish(self, look: Look) -> None:
         """Write the index, if there is one; raises LookError."""
         if self.folder is not None and self.index is not None:
-            from mudline.tools.reporting.page import index_page  # noqa: PLC0415 - needs jinja2
+            from mudline.tools.reporting.page import rendered  # noqa: PLC0415 - needs jinja2
 
-            self._write(self.index, index_page(self.rows, __version__, look))
+            plain = look._replace(template=None)
+            self._write(self.index, rendered(plain, "index.html", rows=self.rows, version=__version__))
 
     def _page(self, deck: str) -> Path | None:
         """Return the file of the page about a deck, different for each page of a run."""

@@ -203,11 +203,6 @@ def form_module(form: str) -> ModuleType:
     return import_module(f"{__name__}.{'text' if form in TEXTS else form}")
 
 
-def table_path(path: Path, table: str) -> Path:
-    """Return the file of another table next to that of the elements."""
-    return path.with_name(f"{path.stem}-{table}{path.suffix}")
-
-
 def plan_rows(plan: Plan) -> list[dict[str, Any]]:
     """Return the stages of a plan as rows."""
     return [{"stage": stage.stage, "active": stage.active, "why": stage.why} for stage in plan]

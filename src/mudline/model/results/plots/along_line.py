@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -13,13 +14,11 @@ from matplotlib.text import Annotation
 from mudline.basics.quantities import ELEMENTS, NODES, SLIDING, STATES, labelled, time_unit, unit_names
 from mudline.model.results.plot_data import Chosen, Extents, PlotData
 from mudline.model.results.plots.style import (
-    LIGHT,
     SEABED,
     STATE_STYLES,
     Style,
     draw_line,
     gapped,
-    is_number,
     legend,
     style_of,
     thinned,
@@ -37,6 +36,8 @@ _CHANGE = 0.01
 """Change of the embedment between neighbours where contact changes, as a part of the deepest embedment."""
 _MARKED = 80
 """Largest number of marked slipping nodes of a line."""
+_SOIL = "#e9dfd0"
+"""Colour below the seabed."""
 
 
 class DrawnLine(NamedTuple):
@@ -120,7 +121,7 @@ class DrawnStretch:
         """Set the horizontal axis."""
         low, high = self.limits
         beside = 0.01 * (high - low) or 0.5
-        if is_number(low, high):
+        if _is_number(low, high):
             axes.set_xlim(low - beside, high + beside)
         axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
 
@@ -155,7 +156,7 @@ def embedment(axes: Axes, stretch: DrawnStretch) -> None:
     top, bottom = axes.get_ylim()
     if deepest > 0.0:
         top, bottom = min(max(top, -0.6 * deepest), -0.06 * deepest), 1.08 * deepest
-    if is_number(top, bottom):
+    if _is_number(top, bottom):
         axes.set_ylim(bottom, top)
     axes.set_ylabel(ELEMENTS["depth"].axis(data.given.units))
 
@@ -203,6 +204,11 @@ def friction(axes: Axes, stretch: DrawnStretch) -> None:
     zero_line(axes)
     axes.set_ylabel(labelled("friction on a node", unit_names(data.given.units).force))
     legend(axes, note=_step_note(data, chosen))
+
+
+def _is_number(*values: float) -> bool:
+    """Return True if an axis can show these values: very large ones overflow in the transforms of the figure."""
+    return all(math.isfinite(value) and abs(value) < 1e150 for value in values)
 
 
 def _of_elements(axes: Axes, values: Floats, stretch: DrawnStretch, *, mark: bool = True) -> None:
@@ -284,7 +290,7 @@ def _crop(axes: Axes, stretch: DrawnStretch) -> None:
         return
     drawn = np.concatenate([data.drawn.places[near, 0], data.drawn.seabed[near]])
     low, high = float(np.nanmin(drawn)), float(np.nanmax(drawn))
-    if is_number(low, high) and high > low:
+    if _is_number(low, high) and high > low:
         axes.set_ylim(low - 0.05 * (high - low), high)
 
 
@@ -337,8 +343,8 @@ def _soil(axes: Axes, chosen: Chosen, drawn_line: DrawnLine) -> None:
     lowest, highest = axes.get_ylim()
     least = float(np.nanmin(level))
     bottom = min(lowest, least - 0.12 * (highest - least))
-    if is_number(bottom, highest):
-        axes.fill_between(drawn_line.node_arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
+    if _is_number(bottom, highest):
+        axes.fill_between(drawn_line.node_arcs[drawn], level, bottom, color=_SOIL, linewidth=0.0, zorder=0)
         upper = highest - 0.1 * (highest - bottom)
         labelled_above = any(isinstance(text, Annotation) and text.xy[1] > upper for text in axes.texts)
         margin = 0.16 if labelled_above else 0.04  # a label has its place below the legend
