@@ -122,10 +122,10 @@ class FileContent:
 class Writer(Protocol):
     """Writer of the columns of all tables of a file, or of several, a few steps at a time."""
 
-    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]], /) -> None:
         """Write the steps from `start` on; `beside` are values for each of them that only JSON can hold."""
 
-    def finish(self, more: More) -> None:
+    def finish(self, more: More, /) -> None:
         """Write values that are known only after the last step."""
 
 

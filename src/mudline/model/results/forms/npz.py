@@ -28,9 +28,8 @@ class NpzWriter:
         self._output, self._contents = output, output.contents
         self._arrays: dict[str, _Array] = {}
 
-    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+    def write(self, columns: Columns, _start: int, _count: int, _beside: Mapping[str, Sequence[object]]) -> None:
         """Keep some steps. Raises OSError."""
-        del start, count, beside
         for table, each in columns.items():
             for column in each:
                 name = self._contents.array_name(table, column.name)
@@ -38,9 +37,8 @@ class NpzWriter:
                     self._arrays[name] = _Array(column, None if column.steady else self._file())
                 self._arrays[name].take(column)
 
-    def finish(self, more: More) -> None:
+    def finish(self, _more: More) -> None:
         """Write the archive; it cannot hold `more`. Raises OSError."""
-        del more
         times, steps = self._contents.times, self._contents.steps
         with zipfile.ZipFile(self._output.streams[0], "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
             for name, array in self._output.tracked(list(self._arrays.items())):

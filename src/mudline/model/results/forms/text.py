@@ -104,9 +104,8 @@ class CsvWriter:
     def __init__(self, contents: FileContent, writes: Mapping[str, Write]) -> None:
         self._contents, self._writes = contents, writes
 
-    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+    def write(self, columns: Columns, start: int, count: int, _beside: Mapping[str, Sequence[object]]) -> None:
         """Write some steps; before the first, the names of the columns."""
-        del beside
         for table, write in self._writes.items():
             write(self._pieces(table, columns[table], start, count))
 
