@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from junitparser import JUnitXml
 from markdown_it import MarkdownIt
 
-from mudline.checks.output import form, visible
+from mudline.checks.output import form_module, visible
 from mudline.language.diagnostics import Diagnostic, Severity
 from tests.checks.made_rules import finding
 from tests.cli.runner import run
@@ -23,26 +23,26 @@ TEXTS = st.text(st.characters(codec="utf-8"), min_size=1, max_size=20)
 
 
 def test_a_command_escapes_what_would_end_a_property_or_the_line() -> None:
-    (line,) = form("github", [], "")([finding(file="a,b:c%.keyxm", message="50% of\r\nall: x,y")])
+    (line,) = form_module("github").write([finding(file="a,b:c%.keyxm", message="50% of\r\nall: x,y")], [])
     head = "::warning file=a%2Cb%3Ac%25.keyxm,line=3,endLine=3,col=2,endColumn=5,title=LEG001 superseded-keyword"
     assert line == f"{head}::50%25 of\ufffd\ufffdall: x,y\n"
 
 
 def test_columns_are_told_within_one_line_only() -> None:
-    (line,) = form("github", [], "")([finding(end_line=5)])
+    (line,) = form_module("github").write([finding(end_line=5)], [])
     assert "line=3,endLine=5,title=" in line
-    (line,) = form("github", [], "")([finding(end_column=2)])
+    (line,) = form_module("github").write([finding(end_column=2)], [])
     assert "col=2,endColumn=2," in line
 
 
 @pytest.mark.parametrize(("severity", "word"), [("error", "error"), ("warning", "warning"), ("info", "notice")])
 def test_severities(severity: str, word: str) -> None:
-    (line,) = form("github", [], "")([finding(severity=Severity(severity))])
+    (line,) = form_module("github").write([finding(severity=Severity(severity))], [])
     assert line.startswith(f"::{word} ")
 
 
 def test_an_issue_has_what_the_report_asks_for() -> None:
-    (issue,) = json.loads("".join(form("gitlab", [], "")([finding(file="./a.keyxm", message="wrong")])))
+    (issue,) = json.loads("".join(form_module("gitlab").write([finding(file="./a.keyxm", message="wrong")], [])))
     assert len(issue.pop("fingerprint")) == 64
     assert issue == {
         "description": "LEG001 wrong",
@@ -55,10 +55,10 @@ def test_an_issue_has_what_the_report_asks_for() -> None:
 def test_paths_are_from_the_folder_of_the_job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     given = [f"{tmp_path.as_posix()}/decks/a.keyxm", "./decks/a.keyxm", "../a.keyxm", f"{tmp_path.as_posix()}x.keyxm"]
-    issues = json.loads("".join(form("gitlab", [], "")(finding(file=file) for file in given)))
+    issues = json.loads("".join(form_module("gitlab").write([finding(file=file) for file in given], [])))
     paths = [issue["location"]["path"] for issue in issues]
     assert paths == ["decks/a.keyxm", "decks/a.keyxm", "../a.keyxm", given[3]]
-    (alone,) = json.loads("".join(form("gitlab", [], "")([finding(file="decks/a.keyxm")])))
+    (alone,) = json.loads("".join(form_module("gitlab").write([finding(file="decks/a.keyxm")], [])))
     assert issues[0]["fingerprint"] == alone["fingerprint"]
 
 
@@ -66,7 +66,7 @@ def test_fingerprints_stay_when_lines_move_and_are_unique() -> None:
     def prints(*lines: int) -> list[str]:
         return [
             issue["fingerprint"]
-            for issue in json.loads("".join(form("gitlab", [], "")(finding(line=line) for line in lines)))
+            for issue in json.loads("".join(form_module("gitlab").write([finding(line=line) for line in lines], [])))
         ]
 
     assert prints(3, 9) == prints(4, 17)
@@ -89,7 +89,7 @@ def _unescaped(text: str, more: str) -> str:
 
 @given(TEXTS, TEXTS)
 def test_a_command_says_the_same_to_the_runner(file: str, message: str) -> None:
-    (text,) = form("github", [], "")([finding(file=file, message=message)])
+    (text,) = form_module("github").write([finding(file=file, message=message)], [])
     assert re.fullmatch(r"[^\r\n]*\n", text)
     word, values, said = heard(text[:-1])
     assert (word, values["file"], said) == ("warning", file.removeprefix("./"), visible(message))
@@ -115,7 +115,7 @@ def test_a_run_tells_gitlab_and_github_of_the_same(tmp_path: Path, monkeypatch: 
 
 def test_a_suite_a_file_and_a_passed_case_for_a_clean_one() -> None:
     found = [finding(file="b.keyxm", message="wrong"), finding(file="b.keyxm", line=7)]
-    root = ET.fromstring("".join(form("junit", ["a.keyxm", "b.keyxm"], "")(found)))  # noqa: S314 - our own text
+    root = ET.fromstring("".join(form_module("junit").write(found, ["a.keyxm", "b.keyxm"])))  # noqa: S314 - our own text
     assert root.attrib == {"name": "mudline", "tests": "3", "failures": "2", "errors": "0"}
     clean, bad = root
     assert (clean.get("name"), clean.get("tests"), clean.get("failures")) == ("a.keyxm", "1", "0")
@@ -128,7 +128,7 @@ def test_a_suite_a_file_and_a_passed_case_for_a_clean_one() -> None:
 
 @given(st.text(st.characters(codec=None), max_size=20), st.text(st.characters(codec=None), max_size=20))
 def test_whatever_a_deck_holds_is_good_xml(file: str, message: str) -> None:
-    text = "".join(form("junit", [file], "")([finding(file=file, message=message)]))
+    text = "".join(form_module("junit").write([finding(file=file, message=message)], [file]))
     root = ET.fromstring(text.encode())  # noqa: S314 - our own text
     assert root.get("failures") == "1"
 
@@ -138,7 +138,7 @@ def test_whatever_a_deck_holds_is_good_xml(file: str, message: str) -> None:
 
 def test_control_characters_are_replaced() -> None:
     found = finding(file="o\x1bdd.keyxm", message="10\x1b[31m\x00<&\"']]>\ud800\ufffe\x85é")
-    opened = JUnitXml.fromstring("".join(form("junit", [found.file], "")([found])).encode())
+    opened = JUnitXml.fromstring("".join(form_module("junit").write([found], [found.file])).encode())
     assert isinstance(opened, JUnitXml)
     ((case,),) = opened
     (failure,) = case.result
@@ -148,7 +148,8 @@ def test_control_characters_are_replaced() -> None:
 
 def table_of(found: list[Diagnostic]) -> tuple[str, list[list[str]]]:
     """The heading and the cells of a summary as a host shows them; what is markup in a cell is not text."""
-    tokens = MarkdownIt("gfm-like", {"linkify": False}).parse("".join(form("markdown", ["a.keyxm"], "")(found)))
+    text = "".join(form_module("markdown").write(found, ["a.keyxm"]))
+    tokens = MarkdownIt("gfm-like", {"linkify": False}).parse(text)
     heading, *cells = [token for token in tokens if token.type == "inline"]
     assert {child.type for cell in cells for child in cell.children or ()} <= {"text", "text_special"}
     shown = ["".join(child.content for child in cell.children or ()) for cell in cells]
@@ -170,4 +171,4 @@ def test_a_summary_has_errors_first_and_counts_what_it_leaves_out() -> None:
     assert heading == "mudline: 1 error, 299 warnings in 1 file"
     assert [row[1].split(":")[1] for row in rows[:2]] == ["999", "1"]
     assert len(rows) == 200
-    assert "".join(form("markdown", ["a.keyxm"], "")(found)).endswith("\nand 100 findings more.\n")
+    assert "".join(form_module("markdown").write(found, ["a.keyxm"])).endswith("\nand 100 findings more.\n")

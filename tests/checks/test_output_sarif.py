@@ -12,7 +12,7 @@ from urllib.parse import unquote
 
 import pytest
 
-from mudline.checks.output import form
+from mudline.checks.output import form_module
 from mudline.language.diagnostics import Diagnostic
 from tests.checks.made_rules import finding, plugin_lint
 from tests.cli.runner import Json, Outcome, run
@@ -35,7 +35,7 @@ DECKS = {
 
 
 def run_of(*found: Diagnostic) -> dict[str, Any]:
-    log = json.loads("".join(form("sarif", [], "1.2.3")(found)))
+    log = json.loads("".join(form_module("sarif").write(found, [])))
     assert log["version"] == "2.1.0"
     (run,) = log["runs"]
     assert isinstance(run, dict)

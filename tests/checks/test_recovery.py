@@ -8,7 +8,7 @@ import pytest
 
 from mudline.checks.engine import Fixing, LintSettings, lint_bytes, named_causes
 from mudline.checks.fixing import lint_one
-from mudline.checks.output import LintRun, form_module
+from mudline.checks.output import form_module
 from mudline.checks.registry import rules, select
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import Diagnostic, Severity
@@ -274,7 +274,7 @@ def test_files_are_looked_for_once_more(tmp_path: Path) -> None:
 @pytest.mark.parametrize("form", ["concise", "json", "jsonl", "github", "gitlab", "junit", "sarif"])
 def test_what_follows_is_in_no_output(form: str) -> None:
     text = changed(("*NODE\n", "*NODS\n"))
-    written = "".join(form_module(form).write(found(text), LintRun(["deck.keyxm"], "1.0")))
+    written = "".join(form_module(form).write(found(text), ["deck.keyxm"]))
     assert "SYN009" in written
     assert "REF006" not in written
 

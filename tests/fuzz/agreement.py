@@ -24,7 +24,7 @@ from mudline.language.diagnostics import DeckError, Diagnostic, Severity, Where
 from mudline.language.syntax.source import Source
 from mudline.model.results.evaluation import evaluate_scene
 from mudline.model.scene.model import resolve
-from mudline.tools.reporting.content import DeckFile, report_on
+from mudline.tools.reporting.content import DeckFile, PageHead, report_on
 from tests.cli.runner import run
 
 NAME = "deck.keyxm"
@@ -69,7 +69,7 @@ _VERDICTS: dict[str, Callable[[bytes], bool | None]] = {
     "validate": lambda data: judge_content(data, NAME, None, None).verdict.ok,
     "evaluate": _evaluates,
     "show": lambda data: not overview(load_bytes(data, NAME)).errors,
-    "report": lambda data: report_on(_file(data), LintSettings(rules()), ["verdict"]).json["verdict"]["ok"],
+    "report": lambda data: report_on(_file(data), LintSettings(rules()), ["verdict"], PageHead()).json["verdict"]["ok"],
 }
 
 

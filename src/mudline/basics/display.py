@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
+from mudline.basics.short_repr import counted
+
 Cell = str | int | float | tuple[str, str] | None
 """Content of a cell: a text, a number, a text with its style, or nothing."""
 Value = str | int | Callable[[Any], Cell]
@@ -60,12 +62,25 @@ text = partial(DisplayColumn, left=True)
 
 @dataclass(frozen=True, slots=True)
 class DisplayTable:
-    """A table: its title, columns and rows, and a note below it."""
+    """A table.
+
+    Attributes:
+        title: its title.
+        columns, rows: its columns and its rows.
+        note: text below the table.
+        more: sentence on rows that are left out.
+        anchor, row_anchor: anchors of the table and, before their numbers, of its rows on a page.
+        few: number of rows on a page before its appendix, which has all.
+    """
 
     title: str
     columns: Sequence[DisplayColumn]
     rows: Sequence[Any]
     note: str = ""
+    more: str = ""
+    anchor: str = ""
+    row_anchor: str = ""
+    few: int = 8
 
     def cells(self) -> list[list[Cell]]:
         """Return the cells, row by row."""
@@ -81,10 +96,11 @@ class DisplayTable:
         ]
         return replace(self, columns=kept)
 
-    def first(self, most: int, words: str) -> DisplayTable:
-        """Return the table with the first `most` rows; its note counts the rows left out."""
+    def first(self, most: int, thing: str = "row", advice: str = "-v shows all") -> DisplayTable:
+        """Return the table with the first `most` rows; `more` counts the rows left out, of which each is a `thing`."""
         left = len(self.rows) - most
-        return replace(self, rows=self.rows[:most], note=f"{left} {words}") if left > 0 else self
+        more = f"{counted(left, f'more {thing}')}: {advice}"
+        return replace(self, rows=self.rows[:most], more=more) if left > 0 else self
 
 
 def _is_full(cell: Cell) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 
 from mudline.basics.quantities import shown
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.plots import Plot, plot_option
+from mudline.cli.plots import Plot, plot_option, write_plot
 from mudline.cli.streams import emit, notify
 from mudline.editing.backbone_block import COARSEST, FINEST, backbone
 from mudline.language.keywords.writer import block_lines
@@ -80,12 +80,12 @@ def command(*, model: str, plot: Plot, depth: float | None, extend: bool, **give
         curve, block = backbone(model, depth=depth, extend=extend, **given)
     except ValueError as error:
         raise click.UsageError(f"--{error}") from error
-    if plot.path:
+    if plot is not None:
         smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * curve.ratios[-1]
         soil = Soil(given["diameter"], given["strength"][0], given["strength"][1], given["weight"])
         forces = Backbone(MODELS[model], soil).force(smooth)
         drawn = {"model": np.column_stack((smooth, forces)), curve.name: block.curves[0].points}
         rows = [{"name": name, "kind": OF_SEABED, "points": points} for name, points in drawn.items()]
-        plot.write(lambda plots: plots.curves_figure(rows, "user"))
+        write_plot(plot, lambda plots: plots.curves.curves_figure(rows, "user"))
     emit(f"{line}\n" for line in block_lines(block))
     return DONE

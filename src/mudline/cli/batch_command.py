@@ -29,9 +29,9 @@ from mudline.cli.batch_cases import (
     failed,
     named_cases,
     positions_of,
+    print_cases,
     results_of,
 )
-from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.many_files import many_files

@@ -12,7 +12,7 @@ from mudline.basics.quantities import UnitNames, csv_lines, labelled, shown, uni
 from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.plots import Plot, plot_option
+from mudline.cli.plots import Plot, plot_option, write_plot
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
 from mudline.model.results.curve_rows import curve_rows, diameters_on, used_curves
@@ -68,7 +68,7 @@ def command(
         rows = curve_rows(scene, ratios, weight)
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    plot.write(lambda plots: plots.curves_figure(rows, scene.units))
+    write_plot(plot, lambda plots: plots.curves.curves_figure(rows, scene.units))
     if output_format == "json":
         emit_json(rows)
     elif output_format == "csv":
@@ -124,13 +124,19 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
             sizes = diameters_on(scene, index)
             drawn = sizes if view.verbose or len(sizes) <= _SHOWN_DIAMETERS else [sizes[0], sizes[-1]]
             note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
-            shown_here = bool(followers(scene, index).any())
-            title = _title(row, sizes, embedment=entry.embedment, of_sections=not shown_here)
+            used = "" if followers(scene, index).any() else ", diameters of *GEOMETRIC SETS"
+            used = used if sizes else ", not used by an element with a diameter"
+            title = f"{'set' if entry.embedment else 'curve'} {row['name']}: {len(row['points'])} points{used}"
         units = [unit if names.length and unit != "-" else "" for unit in row["units"]]
         heads = [(f"{end}\n{axis}", unit) for axis, unit in zip(row["axes"], units, strict=True) for end in _ENDS]
         heads += [("slope", _per(units)), *((f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)]
         columns = [number(head, place, unit) for place, (head, unit) in enumerate(heads)]
-        printer.table(DisplayTable(title, columns, _segments(row, drawn), note))
+        points = row["points"]
+        segments = [
+            (start, end, first, last, segment["slope"], *(segment["slope"] / size for size in drawn))
+            for segment, (start, first), (end, last) in zip(row["segments"], points, points[1:], strict=False)
+        ]
+        printer.table(DisplayTable(title, columns, segments, note))
         _print_values(printer, row, units)
         if "static" in row:
             _print_static(printer, row, names)
@@ -156,23 +162,6 @@ def _print_values(printer: Printer, row: dict[str, Any], units: Sequence[str]) -
     ]
     if row["at"]:
         printer.table(DisplayTable(f"{row['name']} at", columns, row["at"]))
-
-
-def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool, of_sections: bool) -> str:
-    what = "set" if embedment else "curve"
-    used = ", diameters of *GEOMETRIC SETS" if of_sections else ""
-    if not sizes:
-        used = ", not used by an element with a diameter"
-    return f"{what} {row['name']}: {len(row['points'])} points{used}"
-
-
-def _segments(row: dict[str, Any], sizes: list[float]) -> list[tuple[float, ...]]:
-    """Return for each segment its ends by abscissa and by value, its slope, and its stiffness by diameter."""
-    points = row["points"]
-    return [
-        (start, end, first, last, segment["slope"], *(segment["slope"] / size for size in sizes))
-        for segment, (start, first), (end, last) in zip(row["segments"], points, points[1:], strict=False)
-    ]
 
 
 def _print_static(printer: Printer, row: dict[str, Any], names: UnitNames) -> None:

@@ -147,7 +147,7 @@ def _print_matrix(decks: Sequence[Deck], tolerance: float, *, strict: bool, outp
     elif output_format == "csv":
         emit(csv_lines([["group", "value", *names], *([row.group, row.where, *_cells(row.values)] for row in rows)]))
     elif rows:
-        table = matrix_table(rows, _short(names)).first(view.most, "more rows: -v shows all")
+        table = matrix_table(rows, _short(names)).first(view.most)
         view.printer().table(table)
     if output_format == "text" and not view.quiet:
         view.printer().line(f"{counted(len(rows), 'value')} differ" if rows else "no difference")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,13 +20,13 @@ from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
-from mudline.cli.plots import Plot, numbers_of_elements, plot_option
+from mudline.cli.plots import Plot, numbers_of_elements, plot_option, write_plot
 from mudline.cli.result_files import beside, require_library, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
-from mudline.model.results.against import ResultComparison, read_reference
+from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
-from mudline.model.results.forms import FORMS, Sink, contents_of, plan_rows, tables_of
+from mudline.model.results.forms import FORMS, Sink, plan_rows
 from mudline.model.results.forms.text import text_writer, write_text
 from mudline.model.results.plot_data import PlotData
 from mudline.model.results.series import SERIES, SeriesSummary, series_tables
@@ -102,12 +103,12 @@ def command(
     if len(decks) > 1 or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
         raise click.UsageError("evaluate takes one deck: several decks and folders are for mudline batch")
     if summary_only:
-        for option, given in {"--against": against, "--plot": plot.path, "--plan": plan_only}.items():
+        for option, given in {"--against": against, "--plot": plot, "--plan": plan_only}.items():
             if given:
                 raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
         if inputs.positions is None:
             raise click.UsageError("--summary-only is for time steps: give a series with --positions")
-    if plot_elements and plot.path is None:
+    if plot_elements and plot is None:
         raise click.UsageError("--plot-elements is for a plot: give --plot")
     form = options.form_of_file(output, FORMS) if output else ""
     if form:
@@ -149,10 +150,9 @@ def _evaluate_one(
 ) -> list[ContactWarning]:
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
     output, view = wanted.output, wanted.view
-    reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
-    comparison = None if reference is None else ResultComparison(evaluation, reference)
+    comparison = read_file(against, lambda file: ResultComparison(file, evaluation)) if against else None
     try:
-        drawing = None if plot.path is None else PlotData.of_evaluation(evaluation, plot_elements)
+        drawing = None if plot is None else PlotData.of_evaluation(evaluation, plot_elements)
     except ValueError as error:
         raise click.UsageError(f"--plot-elements: {error}") from error
     if not view.quiet:
@@ -168,7 +168,7 @@ def _evaluate_one(
             sink.finish(warnings)
     if drawing is not None:
         doubt = caption(warnings)
-        plot.write(lambda plots: plots.evaluation_figure(drawing, doubt), view)
+        write_plot(plot, lambda plots: plots.evaluation_figure(drawing, doubt), view)
     if not view.quiet:
         _notify_after(watch, slow, output, beside(Path(output)) if output else {})
     if screen is not None:
@@ -207,15 +207,14 @@ def _sink(
         return result_files(evaluation, Path(wanted.output), wanted.view, comparison)
     if wanted.form == "text":
         return nullcontext()
-    tables = tables_of(evaluation, wanted.form, wanted.table)
-    writer = text_writer(wanted.form, contents_of(evaluation, tables), {wanted.table: emit})
-    return nullcontext(Sink(evaluation, tables, writer, wanted.form, comparison))
+    writer = partial(text_writer, wanted.form, writes={wanted.table: emit})
+    return nullcontext(Sink(evaluation, wanted.form, writer, comparison, wanted.table))
 
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer | None], view: View, *, bar: bool) -> None:
     """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
     with Progress(evaluation.steps, view, shown=bar) as progress:
-        evaluation.run((one for one in consumers if one is not None), progress.advance)
+        evaluation.run([one for one in consumers if one is not None], progress.advance)
 
 
 # ----------------------------------------------------------------------------------------------------------- notes
@@ -231,14 +230,13 @@ def _notify_before(evaluation: Evaluation, comparison: ResultComparison | None) 
         notify(f"{stage}: {why}")
     if comparison is None:
         return
-    reference = comparison.reference
-    for numbers, thing, where in (
-        (reference.unknown.tolist(), "element", f"of {reference.file} not in the deck"),
-        (comparison.missing.tolist(), "evaluated element", f"not in {reference.file}"),
-        (reference.lost_times.tolist(), "time", f"of {reference.file} not evaluated"),
-        (reference.missing_times.tolist(), "evaluated time", f"not in {reference.file}"),
+    for key, thing, where in (
+        ("elements_not_in_deck", "element", f"of {comparison.file} not in the deck"),
+        ("elements_not_in_file", "evaluated element", f"not in {comparison.file}"),
+        ("times_not_evaluated", "time", f"of {comparison.file} not evaluated"),
+        ("times_not_in_file", "evaluated time", f"not in {comparison.file}"),
     ):
-        if numbers:
+        if numbers := comparison.unmatched[key]:
             notify(f"{counted(len(numbers), thing)} {where}: {listed_numbers(numbers)}")
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import islice, pairwise
-from typing import TYPE_CHECKING, Any, TypeGuard
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from mudline.basics.quantities import LINES, STEPS, UnitNames, shown, time_unit,
 from mudline.basics.short_repr import counted
 from mudline.cli.view import View
 from mudline.model.contact import ContactResult, Plan
-from mudline.model.contact.columns import ResultColumn, ResultTable
+from mudline.model.contact.columns import ResultColumn
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.against import ResultComparison
@@ -40,7 +40,8 @@ from mudline.model.scene.numbering import Floats
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
-Cells = tuple[str | float, ...]
+Cells = tuple[Any, ...]
+"""Texts and numbers of a row."""
 _MORE_OF = {
     "elements": "more lines, farther from touchdown: --table elements shows all, -o writes all",
     "nodes": "more lines: -v shows all, -o writes all",
@@ -136,7 +137,11 @@ def _print_state(printer: Printer, screen: Screen) -> None:
     else:
         headings, acts = _OF_NODE, np.isin(evaluation.nodes, acted_on(evaluation, result))
         distance = np.zeros(int(acts.sum()))
-    shown_columns = _shown_columns(evaluation.table(screen.which), first, headings)
+    lacking = {"state"} if result.state is None else set()
+    lacking |= {name for name in headings if "_force" in name and result.friction is None}
+    lacking |= {name for name in headings if "_state" in name and result.friction_state is None}
+    available = {each.name: each for group in evaluation.table(screen.which).columns(first) for each in group.flat()}
+    shown_columns = [available[name] for name in headings if name not in lacking]
     columns = [
         number(headings[each.name], at, each.unit, left=bool(each.names)) for at, each in enumerate(shown_columns)
     ]
@@ -183,15 +188,6 @@ _OF_NODE = {
 """Columns of elements and nodes that are shown, with their headings."""
 
 
-def _shown_columns(table: ResultTable, first: ResultPart, headings: Mapping[str, str]) -> list[ResultColumn]:
-    """Return the columns with a heading that the results have."""
-    lacking = {"state"} if first.result.state is None else set()
-    lacking |= {name for name in headings if "_force" in name and first.result.friction is None}
-    lacking |= {name for name in headings if "_state" in name and first.result.friction_state is None}
-    available = {column.name: column for group in table.columns(first) for column in group.flat()}
-    return [available[name] for name in headings if name not in lacking]
-
-
 def _cells(column: ResultColumn, of: NDArray[np.generic], *, every: bool) -> list[str | float]:
     """Return the cells of a column, with all digits if `every`, else with the significant digits of the column."""
     values = of.tolist()
@@ -221,33 +217,28 @@ def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cell
 
     The first cells are the numbers. A joined row has the largest of its values; the last value is True if some differ.
     """
-    tolerances = [_ALIKE * max(map(abs, column)) if _is_number(column) else 0.0 for column in zip(*rows, strict=True)]
+    tolerances = [
+        None if isinstance(column[0], str) else _ALIKE * max(map(abs, column)) for column in zip(*rows, strict=True)
+    ]
+
+    def alike(row: Cells, other: Cells) -> bool:
+        cells = zip(row[1:], other[1:], tolerances[1:], strict=True)
+        return all(a == b or (tolerance is not None and abs(a - b) <= tolerance) for a, b, tolerance in cells)
+
     numbers = [int(row[0]) for row in rows]
     starts: list[int] = []
     for at, row in enumerate(rows):
         follows = at > 0 and numbers[at] == numbers[at - 1] + 1
-        if not follows or not all(map(_alike, row[1:], rows[starts[-1]][1:], tolerances[1:])):
+        if not (follows and alike(row, rows[starts[-1]])):
             starts.append(at)
     for start, end in pairwise([*starts, len(rows)]):
         _, *columns = zip(*rows[start:end], strict=True)
+        largest = (each[0] if isinstance(each[0], str) else shown(max(each, key=abs)) for each in columns)
         yield (
-            (_span(numbers[start], numbers[end - 1]), *map(_of_run, columns)),
+            (_span(numbers[start], numbers[end - 1]), *largest),
             min(near[start:end]),
             any(len(set(column)) > 1 for column in columns),
         )
-
-
-def _is_number(cells: Cells) -> TypeGuard[tuple[float, ...]]:
-    return not isinstance(cells[0], str)
-
-
-def _alike(a: str | float, b: str | float, tolerance: float) -> bool:
-    return a == b or (not isinstance(a, str) and not isinstance(b, str) and abs(a - b) <= tolerance)
-
-
-def _of_run(cells: Cells) -> str:
-    """Return the cell of a run of rows that is largest."""
-    return shown(max(cells, key=abs)) if _is_number(cells) else str(cells[0])
 
 
 def _span(first: int, last: int) -> str:
@@ -379,8 +370,7 @@ def _print_extents(printer: Printer, series: SeriesSummary, most: int) -> None:
         _time(evaluation, 6),
     ]
     if rows:
-        table = DisplayTable("Lines over all steps", columns, rows)
-        printer.table(table.first(most, "more rows: -v shows all"))
+        printer.table(DisplayTable("Lines over all steps", columns, rows).first(most))
 
 
 # -------------------------------------------------------------------------------------------------------- comparison
@@ -406,5 +396,5 @@ def print_comparison(comparison: ResultComparison, view: View) -> None:
         *columns_of("relative"),
         number("rms\ndifference", lambda row: shown(row["rms"], 4)),
     ]
-    title = f"Compared with {comparison.reference.file}"
+    title = f"Compared with {comparison.file}"
     view.printer().table(DisplayTable(title, columns, comparison.differences))

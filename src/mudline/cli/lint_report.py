@@ -12,9 +12,8 @@ import click
 
 from mudline.basics.installed import may_declare
 from mudline.basics.overwriting import claim
-from mudline.basics.version import __version__
 from mudline.checks.configuration import Configured
-from mudline.checks.output import TEXT, form, form_names, visible
+from mudline.checks.output import TEXT, form_module, form_names, visible
 from mudline.checks.pages import GROUP
 from mudline.cli.finding_lines import print_findings, print_summary
 from mudline.cli.inputs import Input
@@ -109,7 +108,7 @@ class LintReport:
             from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
 
             rules()
-        yield from form(name, self.names, __version__)(findings)
+        yield from form_module(name).write(findings, self.names)
 
     def _summary(self, findings: list[Diagnostic]) -> None:
         if self.fixing and (self.fixed or findings):

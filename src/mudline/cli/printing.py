@@ -101,8 +101,8 @@ class Printer:
                 self._console.print(text, soft_wrap=True)
         else:
             self._console.file.writelines("".join(text for text, _ in line).rstrip() + "\n" for line in lines)
-        if table.note:
-            self.line((self.visible(table.note), "dim"))
+        if below := table.more or table.note:
+            self.line((self.visible(below), "dim"))
         self._console.print()
 
     def _cell(self, cell: Cell) -> _Styled:

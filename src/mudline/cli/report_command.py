@@ -100,7 +100,7 @@ def command(
             for file, page in results:
                 if page is not None:
                     pages.add(page, file.name)
-                    contents += [] if html else [page.content]
+                    contents += [] if html else [page[0]]
         if look is not None and pages.rows:
             pages.finish(look)
     except LookError as error:

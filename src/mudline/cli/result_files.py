@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
@@ -22,20 +23,12 @@ from mudline.model.results.forms import (
     ResultTables,
     Sink,
     Writer,
-    contents_of,
-    form_module,
-    table_path,
-    tables_of,
 )
 
 
 def is_installed(form: str) -> bool:
     """Return True if the library for a form of files is installed."""
-    try:
-        form_module(form)
-    except ImportError:
-        return False
-    return True
+    return not FORMS[form].library or find_spec(FORMS[form].library) is not None
 
 
 def require_library(form: str) -> None:
@@ -58,14 +51,14 @@ def result_files(
     Files whose digest is recorded need not be `synced`, as a lost file is recognised by it. Raises click.ClickException
     if the form has no place for all rows.
     """
-    tables = tables_of(evaluation, suffix_of(path))
-    with _opened(path, contents_of(evaluation, tables), view, synced=synced) as writer:
-        yield Sink(evaluation, tables, writer, suffix_of(path), comparison)
+    with ExitStack() as stack:
+        yield Sink(evaluation, suffix_of(path), partial(_writer, path, stack, view, synced=synced), comparison)
 
 
-def beside(path: Path) -> dict[str, Path]:
-    """Return the files of the further tables next to that of the elements, by the names of the tables."""
-    return {table: table_path(path, table) for table in FORMS[suffix_of(path)].beside}
+def beside(path: Path, tables: Sequence[str] = ("nodes", "summary")) -> dict[str, Path]:
+    """Return the files of further tables next to that of the elements, by their names; empty if one file holds all."""
+    separate = FORMS[suffix_of(path)].beside
+    return {table: path.with_name(f"{path.stem}-{table}{path.suffix}") for table in tables} if separate else {}
 
 
 def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:
@@ -73,26 +66,17 @@ def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:
 
     Raises click.ClickException as `result_files` does.
     """
-    with _opened(path, tables.contents, View(quiet=True), synced=True) as writer:
-        tables.write(writer)
-    return _further(path, tables.contents)
-
-
-def _further(path: Path, contents: FileContent) -> dict[str, Path]:
-    _, *others = contents.rows
-    return {table: table_path(path, table) for table in others} if beside(path) else {}
-
-
-@contextmanager
-def _opened(path: Path, contents: FileContent, view: View, *, synced: bool) -> Iterator[Writer]:
-    """Open a file and further files next to it, and yield their writer."""
     with ExitStack() as stack:
-        streams = [
-            stack.enter_context(writing(file, synced=synced)) for file in (path, *_further(path, contents).values())
-        ]
-        output = ResultOutput(suffix_of(path), contents, streams, path.parent, stack, partial(tracked, view=view))
-        try:
-            writer = output.writer()
-        except FormError as error:
-            raise click.ClickException(f"{path.as_posix()}: {error}") from error
-        yield writer
+        tables.write(_writer(path, stack, View(quiet=True), tables.contents, synced=True))
+    return beside(path, [*tables.contents.rows][1:])
+
+
+def _writer(path: Path, stack: ExitStack, view: View, contents: FileContent, *, synced: bool) -> Writer:
+    """Open a file and further files next to it, which `stack` closes, and return their writer."""
+    files = (path, *beside(path, [*contents.rows][1:]).values())
+    streams = [stack.enter_context(writing(file, synced=synced)) for file in files]
+    output = ResultOutput(suffix_of(path), contents, streams, path.parent, stack, partial(tracked, view=view))
+    try:
+        return output.writer()
+    except FormError as error:
+        raise click.ClickException(f"{path.as_posix()}: {error}") from error

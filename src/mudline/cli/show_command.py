@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
-from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
@@ -13,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mudline.api.commands import show
-from mudline.basics.display import DisplayTable, number, text
-from mudline.basics.quantities import UnitNames, shown, unit_names
+from mudline.basics.quantities import shown, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
@@ -25,8 +21,7 @@ from mudline.language.diagnostics import Coverage
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import SUBJECTS
 from mudline.model.results.forms.text import write_text
-from mudline.model.results.sheet_tables import sheet_data, sheet_tables
-from mudline.model.results.summary_tables import Rows, diameter_table, elements_of, set_table, static_table
+from mudline.model.results.summary_tables import sheet_data, sheet_tables, tables_of
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -63,7 +58,7 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
         if sheet and not tables:
             notify(f"{summary['file']}: the deck has no elements to list in a sheet")
         for table in tables:
-            view.printer().table(table.first(view.most, "more rows: -v shows all"))
+            view.printer().table(table.first(view.most))
     if errors:
         counts = Counter(error.file for error in errors)
         for file, count in counts.items():
@@ -86,25 +81,14 @@ def _form(output: str | None, output_format: str) -> str:
 def _print_summary(summary: dict[str, Any], view: View) -> None:
     """Print sections and keywords, then a table each of sets, curves, diameters and laws."""
     printer = view.printer()
-    names = unit_names(summary["units"])
-    _print_head(printer, summary, names)
-    printer.table(set_table(summary["sets"], names))
-    tables: dict[str, Callable[[Rows, UnitNames], DisplayTable]] = {
-        "curves": _curves,
-        "diameters": partial(diameter_table, none="none"),
-        "laws": _laws,
-        "bed": _resistance,
-        "extensions": _extensions,
-        "static_embedment": partial(_static, left_out=summary["weights_without"], case=summary["contents_case"]),
-    }
-    for key, table in tables.items():
-        if rows := summary[key]:
-            printed = table(rows, names)
-            printer.table(printed.first(view.most, "more diameters: -v shows all") if key == "diameters" else printed)
+    _print_head(printer, summary)
+    for table in tables_of(summary, view.most):
+        printer.table(table)
 
 
-def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:
-    length = f", {shown(summary['length'])} {names.length}".rstrip() + " long" if summary["length"] is not None else ""
+def _print_head(printer: Printer, summary: dict[str, Any]) -> None:
+    unit = unit_names(summary["units"]).behind("length")
+    length = f", {shown(summary['length'])}{unit} long" if summary["length"] is not None else ""
     seabed = " and ".join(summary["seabed"]) or "no"
     more = "+" if summary["sets"][0]["open"] else ""  # of ALL, which comes first
     counts = f"{summary['nodes']}{more} nodes, {summary['elements']}{more} elements{length}"
@@ -171,57 +155,3 @@ def _listed(printer: Printer, keywords: list[str]) -> str:
 def _print_folded(printer: Printer, text: str, indent: str) -> None:
     for line in wrap(text, printer.width, initial_indent=indent, subsequent_indent="      "):
         printer.line(line)
-
-
-def _curves(curves: Rows, names: UnitNames) -> DisplayTable:
-    columns = (
-        text("curve", "name"),
-        text("keyword", _keyword),
-        number("points", "points"),
-        number("ratio", lambda row: _range(row["ratios"])),
-        number("force", lambda row: _range(row["forces"]), names.line_force),
-        number("elements", elements_of),
-    )
-    return DisplayTable("Force-embedment curves", columns, curves)
-
-
-def _keyword(row: dict[str, Any]) -> str:
-    return f"*{row['keyword']}"
-
-
-def _range(ends: list[float] | None) -> str:
-    return "" if ends is None else f"{shown(ends[0])} to {shown(ends[1])}"
-
-
-def _laws(laws: Rows, names: UnitNames) -> DisplayTable:
-    stiffness = number("stiffness", "stiffness", names.stiffness, optional=True)
-    columns = (text("law", "law"), text("set", "set"), number("elements", "elements"), stiffness)
-    return DisplayTable("Normal laws", columns, laws)
-
-
-def _resistance(blocks: Rows, names: UnitNames) -> DisplayTable:
-    columns = (
-        text("set", "set"),
-        number("elements", "elements"),
-        number("friction\ncoefficients", lambda row: _pair(row["friction"]), optional=True),
-        number("mobilisation\nlengths", lambda row: _pair(row["mobilisation"]), names.length, optional=True),
-        number("lateral\nstiffness", "lateral", names.stiffness, optional=True),
-        number("suction\nstiffness", "suction", names.stiffness, optional=True),
-        number("suction\nzone", "extent", names.length, optional=True),
-    )
-    return DisplayTable("Friction, lateral resistance, suction", columns, blocks)
-
-
-def _pair(values: list[float | None]) -> str:
-    return ", ".join(shown(value) or "-" for value in values) if values != [None, None] else ""
-
-
-def _extensions(blocks: Rows, _: UnitNames) -> DisplayTable:
-    columns = (text("keyword", _keyword), text("set", "set"), number("elements", "elements"))
-    return DisplayTable("Extensions", columns, blocks)
-
-
-def _static(rows: Rows, names: UnitNames, left_out: Sequence[str], case: int | None) -> DisplayTable:
-    alike = len({(row["set"], row["law"], row["filled"]) for row in rows}) < len(rows)
-    table = static_table(rows, names, left_out, case, first=alike)
-    return replace(table, columns=[*table.columns, text("extrapolated", "extrapolated", optional=True)])

@@ -16,7 +16,7 @@ from mudline.basics.quantities import csv_lines
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.options import ABOVE_ZERO
-from mudline.cli.plots import Plot, plot_option
+from mudline.cli.plots import Plot, plot_option, write_plot
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View, tracked
 from mudline.tools.touchdown_study.screen import TABLES, description, sentences
@@ -58,10 +58,10 @@ def command(
     if output is not None and suffix_of(output) != "json":
         raise click.UsageError(f"-o {output}: unknown file format: give a name ending in .json")
     result = study(deck.load(), only=only, heave=heave, period=period, tracked=lambda parts: tracked(parts, view))
-    if plot.path is not None and not result.drawable:
+    if plot is not None and not result.drawable:
         notify("--plot: there is nothing to draw, as no step of this deck was measured")
     else:
-        plot.write(lambda _: result.figure(), view)
+        write_plot(plot, lambda _: result.figure(), view)
     if output:
         emit_json(result.json(), output)
         view.note(f"study -> {Path(output).as_posix()}")

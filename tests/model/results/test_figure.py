@@ -20,8 +20,8 @@ import mudline
 from mudline.model.contact import ContactInput, ContactModel, ContactResult, LawAssignment
 from mudline.model.contact.touchdown import line_summaries
 from mudline.model.results.plot_data import PlotData
+from mudline.model.results.plots import evaluation_figure, panels_of
 from mudline.model.results.plots.along_line import DrawnStretch
-from mudline.model.results.plots.figure import evaluation_figure, panels_of
 from mudline.model.scene.model import resolve
 from mudline.model.scene.positions import read_positions
 from tests.helpers.samples import SAMPLES

@@ -15,11 +15,12 @@ import pytest
 from numpy.typing import NDArray
 
 from mudline.basics.quantities import ELEMENTS, LINES, NODES, RESULT_FORMAT, Quantity
+from mudline.cli.result_files import beside
 from mudline.model.contact.arrays import Positions
 from mudline.model.contact.frames import array_name
 from mudline.model.contact.result import TableName
 from mudline.model.results.evaluation import Evaluation, evaluate_scene
-from mudline.model.results.forms import FORMS, table_path
+from mudline.model.results.forms import FORMS
 from mudline.model.scene.model import Scene, resolve
 from tests.helpers.builders.decks import CLEAN, PULLING
 from tests.helpers.builders.scenes import scene_of
@@ -58,7 +59,7 @@ def moved(scene: Scene, steps: int, present: tuple[int, ...] | None = None) -> P
 
 
 def from_csv(path: Path, table: str) -> Rows:
-    file = path if table == "elements" else table_path(path, table)
+    file = {"elements": path, **beside(path)}[table]
     with file.open(encoding="utf-8", newline="") as stream:
         names, *rows = csv.reader(stream)
     found: Rows = {name: [row[place] for row in rows] for place, name in enumerate(names)}
@@ -111,7 +112,7 @@ def _of_array(value: Value, quantity: Quantity) -> Value:
 
 
 def from_parquet(path: Path, table: str) -> Rows:
-    held = pq.read_table(path if table == "elements" else table_path(path, table))
+    held = pq.read_table({"elements": path, **beside(path)}[table])
     assert held.schema.metadata[b"mudline.format"] == RESULT_FORMAT.encode()
     found: Rows = held.to_pydict()
     return found

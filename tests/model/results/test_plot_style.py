@@ -10,7 +10,7 @@ pytest.importorskip("matplotlib")
 
 
 from mudline.model.results.curve_rows import curve_rows
-from mudline.model.results.plots import curves_figure
+from mudline.model.results.plots.curves import curves_figure
 from mudline.model.results.plots.style import style_of
 from mudline.model.scene.curves import OF_SEABED
 from mudline.model.scene.model import resolve

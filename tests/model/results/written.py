@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, TypeAlias
@@ -12,8 +13,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.cli.result_files import beside
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.forms import FORMS, ResultOutput, Sink, contents_of, table_path, tables_of
+from mudline.model.results.forms import FileContent, ResultOutput, Sink, Writer
 from mudline.model.results.forms.text import text_writer
 from mudline.model.results.totals import step_totals
 
@@ -23,8 +25,7 @@ Json: TypeAlias = Any
 def pieces(evaluation: Evaluation, form: str, table: str = "elements") -> Iterator[str]:
     """All that a form of text writes, piece by piece as it comes."""
     written: list[Iterator[str]] = []
-    tables = tables_of(evaluation, form, table)
-    sink = Sink(evaluation, tables, text_writer(form, contents_of(evaluation, tables), {table: written.append}), form)
+    sink = Sink(evaluation, form, partial(text_writer, form, writes={table: written.append}), only=table)
     for part in evaluation.parts():
         sink.take(part)
         yield from written.pop()
@@ -41,12 +42,14 @@ def json_of(evaluation: Evaluation) -> Json:
 def write(evaluation: Evaluation, path: Path) -> Path:
     """Write an evaluation in the form of the suffix, as the command does."""
     form = path.suffix[1:]
-    tables = tables_of(evaluation, form)
     with ExitStack() as stack:
-        paths = [path, *(table_path(path, table) for table in FORMS[form].beside)]
+        paths = [path, *beside(path).values()]
         streams = [stack.enter_context(one.open("wb")) for one in paths]
-        writer = ResultOutput(form, contents_of(evaluation, tables), streams, path.parent, stack).writer()
-        sink = Sink(evaluation, tables, writer, form)
+
+        def writer(contents: FileContent) -> Writer:
+            return ResultOutput(form, contents, streams, path.parent, stack).writer()
+
+        sink = Sink(evaluation, form, writer)
         for part in evaluation.parts():
             sink.take(part)
         sink.finish()

@@ -1,19 +1,18 @@
 """Output formats of findings, a module each, imported when it is used, and the functions that they share.
 
 Each module here is a format with the module's name: `SUMMARY` is a sentence for the documentation, `write(diagnostics,
-run)` returns the text of findings in pieces. `text`, the format for people, is printed by the command as findings come.
+files)` returns the text of findings in pieces; `files` are the linted files in their order. `text`, the format for
+people, is printed by the command as findings come.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from collections.abc import Iterable, Iterator
 from hashlib import sha256
 from importlib import import_module
 from pkgutil import iter_modules
 from types import ModuleType
-from typing import NamedTuple
 
 from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.basics.short_repr import cut
@@ -28,13 +27,6 @@ TEXT_SUMMARY = "for people: place, message, the source line with a mark; standar
 _REPLACEMENT = "\ufffd"
 
 
-class LintRun(NamedTuple):
-    """Context of a run for a format: the files linted, in their order, and the version of mudline."""
-
-    files: Sequence[str]
-    version: str
-
-
 def form_names() -> list[str]:
     """Return the name of every format except text, without importing one."""
     return sorted(module.name for module in iter_modules(__path__))
@@ -45,23 +37,14 @@ def form_module(name: str) -> ModuleType:
     return import_module(f"{__name__}.{name}")
 
 
-def form(name: str, files: Sequence[str], version: str) -> Callable[[Iterable[Diagnostic]], Iterator[str]]:
-    """Return the function that writes findings in a format; `files` and `version` are those of `LintRun`."""
-    return partial(form_module(name).write, run=LintRun(files, version))
-
-
-class Fingerprints:
-    """Hashes of path, code and message, without the line number; equal findings are counted."""
-
-    def __init__(self) -> None:
-        self._met: Counter[tuple[str, str, str]] = Counter()
-
-    def of(self, found: Diagnostic) -> str:
-        """Return the hash of a finding, in the order of the findings; no two of a run are equal."""
+def with_fingerprints(diagnostics: Iterable[Diagnostic]) -> Iterator[tuple[Diagnostic, str]]:
+    """Yield each finding with a hash of path, code and message, without the line number; equal findings are counted."""
+    met: Counter[tuple[str, str, str]] = Counter()
+    for found in diagnostics:
         known = (found.file, found.code, found.message)
-        self._met[known] += 1
-        text = "\0".join([*known, str(self._met[known])])
-        return sha256(text.encode("utf-8", "backslashreplace")).hexdigest()
+        met[known] += 1
+        text = "\0".join([*known, str(met[known])])
+        yield found, sha256(text.encode("utf-8", "backslashreplace")).hexdigest()
 
 
 def visible(text: str, encoding: str = "utf-8") -> str:

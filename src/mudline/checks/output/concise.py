@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
-from mudline.checks.output import LintRun, visible
+from mudline.checks.output import visible
 from mudline.language.diagnostics import Diagnostic
 
 SUMMARY = "`file:line:column: CODE message`, a line each"
 
 
-def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
+def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """Yield the lines, with their ends."""
     for finding in diagnostics:
         place = f"{finding.file}:{finding.line}:{finding.column}"

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
-from mudline.checks.output import Fingerprints, LintRun, visible
+from mudline.checks.output import visible, with_fingerprints
 from mudline.checks.output.json import array
 from mudline.language.diagnostics import Diagnostic, Severity
 
@@ -16,21 +15,19 @@ SUMMARY = "a code quality report; fingerprints do not depend on line numbers"
 _SEVERITIES = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.INFO: "info"}
 
 
-def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
+def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """Return one array, an object a line; `[]` without findings."""
-    fingerprints = Fingerprints()
     placed = (replace(finding, file=_path(finding.file)) for finding in diagnostics)
-    return array(_issue(finding, fingerprints.of(finding)) for finding in placed)
-
-
-def _issue(finding: Diagnostic, fingerprint: str) -> dict[str, Any]:
-    return {
-        "description": f"{finding.code} {visible(finding.message)}",
-        "check_name": finding.slug,
-        "fingerprint": fingerprint,
-        "severity": _SEVERITIES[finding.severity],
-        "location": {"path": finding.file, "lines": {"begin": finding.line, "end": finding.end_line}},
-    }
+    return array(
+        {
+            "description": f"{finding.code} {visible(finding.message)}",
+            "check_name": finding.slug,
+            "fingerprint": fingerprint,
+            "severity": _SEVERITIES[finding.severity],
+            "location": {"path": finding.file, "lines": {"begin": finding.line, "end": finding.end_line}},
+        }
+        for finding, fingerprint in with_fingerprints(placed)
+    )
 
 
 def _path(file: str) -> str:

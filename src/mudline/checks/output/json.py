@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from mudline.checks.output import LintRun
 from mudline.checks.pages import page
 from mudline.language.diagnostics import Diagnostic, Fix
 
 SUMMARY = "an [array of objects](json.md#findings)"
 
 
-def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
+def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """Return one array, an object a line; `[]` without findings."""
     return array(map(as_object, diagnostics))
 

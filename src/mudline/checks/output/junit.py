@@ -6,10 +6,10 @@ content, since readers show one of the two.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from xml.sax.saxutils import escape, quoteattr
 
-from mudline.checks.output import LintRun, visible
+from mudline.checks.output import visible
 from mudline.language.diagnostics import Diagnostic
 
 SUMMARY = (
@@ -18,9 +18,9 @@ SUMMARY = (
 )
 
 
-def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:
     """Yield the pieces of the document; all linted files are in it, in their order."""
-    by_file: dict[str, list[Diagnostic]] = {name: [] for name in run.files}
+    by_file: dict[str, list[Diagnostic]] = {name: [] for name in files}
     for findings in diagnostics:
         by_file.setdefault(findings.file, []).append(findings)
     cases = sum(len(findings) or 1 for findings in by_file.values())

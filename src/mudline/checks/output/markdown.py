@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from mudline.basics.short_repr import counted
-from mudline.checks.output import LintRun, visible
+from mudline.checks.output import visible
 from mudline.checks.pages import page
 from mudline.language.diagnostics import Diagnostic, Severity
 
@@ -23,17 +23,17 @@ _MOST = 200
 _MARKUP = re.compile(r"[\\`*_{}\[\]<>#|~@&!$]|:(?=//)|(?<=www)\.")
 
 
-def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:
     """Yield a heading with the totals, then a row for each finding; the heading alone without findings."""
     listed = sorted(diagnostics, key=lambda finding: (-finding.severity.rank, finding.sort_key))
-    files = counted(len(run.files), "file")
+    linted = counted(len(files), "file")
     if not listed:
-        yield f"### mudline: no findings in {files}\n"
+        yield f"### mudline: no findings in {linted}\n"
         return
     counts = Counter(finding.severity for finding in listed)
     words = {each: counted(counts[each], each.value) for each in (Severity.ERROR, Severity.WARNING)}
     words[Severity.INFO] = f"{counts[Severity.INFO]} info"
-    yield f"### mudline: {', '.join(word for each, word in words.items() if counts[each])} in {files}\n\n"
+    yield f"### mudline: {', '.join(word for each, word in words.items() if counts[each])} in {linted}\n\n"
     yield "| severity | place | rule | message |\n| --- | --- | --- | --- |\n"
     for finding in listed[:_MOST]:
         place = _plain(f"{finding.file.removeprefix('./')}:{finding.line}:{finding.column}")

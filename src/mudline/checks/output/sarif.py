@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 from urllib.parse import quote
 
-from mudline.checks.output import Fingerprints, LintRun, visible
+from mudline.basics.version import __version__
+from mudline.checks.output import visible, with_fingerprints
 from mudline.checks.pages import page
 from mudline.checks.registry import rules
 from mudline.language.diagnostics import Diagnostic, Edit, Severity
@@ -24,16 +25,15 @@ _BASE = "ROOT"
 _NO_RULE = "This is not a rule and cannot be ignored; the message says why the file could not be used or checked."
 
 
-def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """Yield one log with one run; its rules are those with findings."""
     listed = list(diagnostics)
     first = {finding.code: finding for finding in reversed(listed)}
     codes = sorted(first)
-    fingerprints = Fingerprints()
     driver = {
         "name": "mudline",
-        "version": run.version,
-        "semanticVersion": run.version,
+        "version": __version__,
+        "semanticVersion": __version__,
         "rules": [_descriptor(first[code]) for code in codes],
     }
     head = {"$schema": SCHEMA, "version": "2.1.0"}
@@ -44,8 +44,8 @@ def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
         "originalUriBaseIds": {_BASE: {"description": {"text": "the folder that the linter was run in"}}},
     }
     yield f'{json.dumps(head)[:-1]}, "runs": [\n{json.dumps(log)[:-1]}, "results": ['
-    for number, finding in enumerate(listed):
-        result = _result(finding, codes.index(finding.code), fingerprints.of(finding))
+    for number, (finding, fingerprint) in enumerate(with_fingerprints(listed)):
+        result = _result(finding, codes.index(finding.code), fingerprint)
         yield f"{',' * (number > 0)}\n {json.dumps(result)}"
     yield "\n]}]}\n"
 

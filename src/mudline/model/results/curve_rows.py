@@ -23,30 +23,10 @@ def curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) ->
 
     Raises ValueError for a ratio at which a force overflows, and for a ratio or a weight that is not finite.
     """
-    seabed = [
-        _curve_row(entry.name, curve, diameters_on(scene, index), ratios, weight) | _of_keyword(scene, entry)
-        for index, entry, curve in used_curves(scene)
-    ]
-    others = [
-        _curve_row(source.name, curve, [], (), None)
-        | {"at": [_value_of_other(curve, source, ratio) for ratio in ratios]}
-        | _of_keyword(scene, source)
-        for source in sorted(scene.other_curves, key=lambda source: (source.kind, source.keyword))
-        if (curve := source.curve)
-    ]
-    return seabed + others
-
-
-def _of_keyword(scene: Scene, entry: SceneCurve) -> dict[str, Any]:
-    """Return the parts of a row that the keyword of its curve gives."""
-    return {
-        "kind": entry.kind,
-        "keyword": entry.keyword,
-        "axes": list(entry.axes),
-        "units": [unit_text(unit, scene.units) for unit in entry.units],
-        "ends": entry.ends,
-        "reach": [finite(end) for end in entry.reach],
-    }
+    seabed = [(entry, curve, diameters_on(scene, index)) for index, entry, curve in used_curves(scene)]
+    others = sorted(scene.other_curves, key=lambda source: (source.kind, source.keyword))
+    of_others = [(source, source.curve, None) for source in others if source.curve]
+    return [_curve_row(scene, *each, ratios, weight) for each in (*seabed, *of_others)]
 
 
 def used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
@@ -71,50 +51,58 @@ def diameters_on(scene: Scene, curve: int) -> list[float]:
 
 
 def _curve_row(
-    name: str, curve: ForceCurve, sizes: list[float], ratios: tuple[float, ...], weight: float | None
+    scene: Scene,
+    entry: SceneCurve,
+    curve: ForceCurve,
+    sizes: list[float] | None,
+    ratios: tuple[float, ...],
+    weight: float | None,
 ) -> dict[str, Any]:
+    """Return the row of a curve; `sizes` are the diameters on a curve of the seabed, None for another curve."""
     points = np.column_stack([curve.ratios, curve.forces]).tolist()
     slopes = curve.slopes.tolist()
     row: dict[str, Any] = {
-        "name": name,
+        "name": entry.name,
         "points": points,
         "segments": [{"from": points[i][0], "to": points[i + 1][0], "slope": slope} for i, slope in enumerate(slopes)],
-        "at": [_value_at(curve, ratio) for ratio in ratios],
+        "at": [_value_at(curve, entry, ratio) for ratio in ratios],
     }
-    if weight is not None:
-        row["static"] = [_static(curve, ratio, sizes) for ratio in curve.ratios_at_force(weight)]
-    return row
+    if weight is not None and sizes is not None:
+        row["static"] = [_static(curve, entry, ratio, sizes) for ratio in curve.ratios_at_force(weight)]
+    return row | {
+        "kind": entry.kind,
+        "keyword": entry.keyword,
+        "axes": list(entry.axes),
+        "units": [unit_text(unit, scene.units) for unit in entry.units],
+        "ends": entry.ends,
+        "reach": [finite(end) for end in entry.reach],
+    }
 
 
-def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
-    """Return force, slope, segment and extrapolation at a ratio."""
+def _value_at(curve: ForceCurve, entry: SceneCurve, ratio: float) -> dict[str, Any]:
+    """Return force, slope, segment and extrapolation at a ratio; None where a curve is unknown."""
     force, slope = curve.evaluate(ratio)
-    return {
+    values = {
         "ratio": ratio,
         "force": float(force),
         "slope": float(slope),
         "segment": int(curve.segment(ratio)),
         "extrapolated": CURVE_SIDES[int(curve.extrapolated(ratio))],
     }
-
-
-def _value_of_other(curve: ForceCurve, source: SceneCurve, ratio: float) -> dict[str, Any]:
-    """Return the values of a curve that does not continue with its slope: None where unknown, else the end value."""
-    values = _value_at(curve, ratio)
-    low, high = source.reach
+    low, high = entry.reach
     if not low <= ratio <= high:
         return dict.fromkeys(values) | {"ratio": ratio, "extrapolated": CURVE_SIDES[1 if ratio > high else -1]}
-    if values["extrapolated"] is not None and source.ends == "value":
+    if values["extrapolated"] is not None and entry.ends == "value":
         values |= {"force": float(curve.forces[0 if values["extrapolated"] == "below" else -1]), "slope": 0.0}
     return values
 
 
-def _static(curve: ForceCurve, ratio: float, sizes: list[float]) -> dict[str, Any]:
+def _static(curve: ForceCurve, entry: SceneCurve, ratio: float, sizes: list[float]) -> dict[str, Any]:
     """Return the static embedment, where the curve carries the weight, with depth and stiffness for each diameter.
 
     It is stable if the force increases with depth; otherwise the pipe sinks further.
     """
-    values = _value_at(curve, ratio)
+    values = _value_at(curve, entry, ratio)
     slope = values["slope"]
     return {
         **values,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -22,7 +22,7 @@ from mudline.model.scene.deck_values import unread_makers
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, distinct
-from mudline.model.scene.weights import contents_case, left_out
+from mudline.model.scene.weights import contents_case, left_out, pipe_of
 
 Tension = Literal["keep", "cut"]
 PositionSource = Literal["deck", "file", "rest shape"]
@@ -120,14 +120,13 @@ class Evaluation:
         kind = ElementResults if name == "elements" else LineResults
         return kind(self.model.input, self.elements)
 
-    def run(self, consumers: Iterable[ResultConsumer], done: Callable[[int], None] = lambda _: None) -> None:
+    def run(self, consumers: Sequence[ResultConsumer], done: Callable[[int], None] = lambda _: None) -> None:
         """Evaluate all steps once and pass the results on; `done` is called with the number of steps of each part.
 
         Raises the exceptions of `parts` and of the consumers.
         """
-        all_consumers = list(consumers)
         for part in self.parts():
-            for consumer in all_consumers:
+            for consumer in consumers:
                 consumer.take(part)
             done(part.count)
 
@@ -166,8 +165,6 @@ def evaluate_scene(
             raise scene.refusal(f"{message}: give them with --positions")
     complete, model, filled = prepare(scene, positions, tension)
     if at_rest is not None:
-        from mudline.model.scene.weights import pipe_of  # noqa: PLC0415 - other positions do without it
-
         model = ContactModel(replace(model.input, weight=pipe_of(scene).weight))
     used = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
     if model.plan.history:

@@ -53,17 +53,17 @@ class Chosen(NamedTuple):
         return ResultPart(self.step, self.result.as_series())
 
     @property
-    def heights(self) -> Floats:
-        """The heights (n,) of the nodes, NaN where unknown."""
+    def places(self) -> Floats:
+        """The positions (n, 3) of the nodes, NaN where unknown."""
         if self.result.positions is None:
-            return np.full(self.result.gap.shape, np.nan)
-        return np.asarray(self.result.positions[:, 0], dtype=np.float64)
+            return np.full((*self.result.gap.shape, 3), np.nan)
+        return np.asarray(self.result.positions, dtype=np.float64)
 
     @property
     def seabed(self) -> Floats:
         """The height (n,) of the seabed vertically below each node."""
         with np.errstate(all="ignore"):
-            heights: Floats = self.heights - self.result.gap / self.result.normal[..., 0]
+            heights: Floats = self.places[:, 0] - self.result.gap / self.result.normal[..., 0]
         return heights
 
 
@@ -131,7 +131,16 @@ class PlotData:
         """
         self.given, self.steps, self.times = given, steps, times
         self.elements: Indices = np.flatnonzero(evaluated)
-        self.looped = self._looped(elements)
+        places = {int(given.element_ids[index]): index for index in self.elements.tolist()}
+        numbers = list(dict.fromkeys(elements))
+        if numbers and steps == 1:
+            raise ValueError("force over penetration needs time steps, and this is one state")
+        if unknown := [number for number in numbers if number not in places]:
+            words = f"no evaluated element has the number {listed_numbers(unknown)}"
+            raise ValueError(f"{words}: give numbers of elements in the results")
+        if len(numbers) > MOST_LOOPS:
+            raise ValueError(f"{len(numbers)} elements are too many to draw: give at most {MOST_LOOPS}")
+        self.looped: Indices = np.array([places[number] for number in numbers], np.intp)
         self.largest: dict[str, Chosen] = {}
         self.touched: Mask = np.zeros(len(evaluated), np.bool_)
         self.force, self.depth = Extents(len(evaluated)), Extents(len(evaluated))
@@ -164,18 +173,6 @@ class PlotData:
         data = cls(result.known, series.evaluated, len(series.depth), series.times, elements=elements)
         data.take(ResultPart(0, series))
         return data
-
-    def _looped(self, elements: Sequence[int]) -> Indices:
-        if elements and self.steps == 1:
-            raise ValueError("force over penetration needs time steps, and this is one state")
-        places = {int(self.given.element_ids[index]): index for index in self.elements.tolist()}
-        numbers_asked = list(dict.fromkeys(elements))
-        if unknown := [number for number in numbers_asked if number not in places]:
-            numbers = listed_numbers(unknown)
-            raise ValueError(f"no evaluated element has the number {numbers}: give numbers of elements in the results")
-        if len(numbers_asked) > MOST_LOOPS:
-            raise ValueError(f"{len(numbers_asked)} elements are too many to draw: give at most {MOST_LOOPS}")
-        return np.array([places[number] for number in numbers_asked], np.intp)
 
     # ------------------------------------------------------------------------------------------- as the parts come
 

@@ -198,13 +198,10 @@ class Extremes:
         """Return the least value of a column, its time, the largest value and its time; None without any."""
         if times is None or self.least.steps[column] < 0:
             return None
-        low, high = self.least, self.largest
-        return (
-            float(low.values[column]),
-            float(times[low.steps[column]]),
-            float(high.values[column]),
-            float(times[high.steps[column]]),
+        low, high = (
+            (float(best.values[column]), float(times[best.steps[column]])) for best in (self.least, self.largest)
         )
+        return *low, *high
 
 
 class SeriesSummary:

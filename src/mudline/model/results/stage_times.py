@@ -162,43 +162,26 @@ def with_added(given: ContactInput, stage: str) -> ContactInput | None:
     rows = np.sort(np.concatenate([np.zeros(0, np.intp), *fit]))
     if not rows.size:
         return None
-    if stage == "smoothing":
-        return _smoothed(given)
-    names = _ADDED.get(stage, (stage,))
-    if given.has("friction"):
-        names = tuple(name for name in names if name != "friction")
+    known = given.diameter[np.isfinite(given.diameter)]
+    size = float(np.median(known)) if known.size else _DIAMETER
+    if stage == "smoothing":  # zones of a hundredth of the diameter on linear laws
+        laws = [
+            replace(law, law="smoothed", parameters={**law.parameters, "half_width": 0.01 * size})
+            if law.law == "linear"
+            else law
+            for law in given.laws
+        ]
+        return replace(given, laws=tuple(laws)) if given.has("linear") else None
+    needed = ("friction", "trench peak") if stage == "trench" else (stage,)
+    names = [name for name in needed if not given.has(name)]
     nodes = np.unique(given.element_nodes[rows])
-    usual = _usual(given, rows)
+    usual = _usual(given, rows, size)
     added = [LawAssignment(name, nodes if law_named(name).acts_on == "nodes" else rows, usual[name]) for name in names]
     return replace(given, laws=(*given.laws, *added))
 
 
-_ADDED: dict[str, tuple[str, ...]] = {"trench": ("friction", "trench peak")}
-"""Laws added for a stage, if their name is not that of the stage."""
-
-
-def _smoothed(given: ContactInput) -> ContactInput | None:
-    """Return the input with zones of a hundredth of the diameter on linear laws; None without any."""
-    if not given.has("linear"):
-        return None
-    size = _size(given)
-    laws = [
-        replace(law, law="smoothed", parameters={**law.parameters, "half_width": 0.01 * size})
-        if law.law == "linear"
-        else law
-        for law in given.laws
-    ]
-    return replace(given, laws=tuple(laws))
-
-
-def _size(given: ContactInput) -> float:
-    known = given.diameter[np.isfinite(given.diameter)]
-    return float(np.median(known)) if known.size else _DIAMETER
-
-
-def _usual(given: ContactInput, rows: IndexArray) -> dict[str, Mapping[str, ArrayLike]]:
-    """Return usual values of laws by name, for elements (k,) like those of the deck."""
-    size = _size(given)
+def _usual(given: ContactInput, rows: IndexArray, size: float) -> dict[str, Mapping[str, ArrayLike]]:
+    """Return usual values of laws by name, for elements (k,) like those of the deck, with a diameter."""
     steepest = ContactModel(given, backend="numpy").stiffest().per_length(np.maximum(given.length, 1e-300))[rows]
     stiffness = float(np.max(steepest[np.isfinite(steepest)], initial=1.0))
     return {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import asdict
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -205,7 +205,7 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
         weights.append(scene.submerged_weight + inside[-1].mass * scene.surroundings.gravity)
     own = np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR))
     smoothing = element_smoothing(scene) if "SEABED CONTACT" in scene.extensions else None
-    arrays, zones = scene.law_arrays(), _Zones.of(smoothing, len(scene.element_ids))
+    arrays, zones = scene.law_arrays(), _zones(smoothing, len(scene.element_ids))
     rows = []
     for filled, weight in enumerate(weights):
         known = np.flatnonzero((weight > 0.0) & own & ((weight != weights[0]) | (not filled)))
@@ -216,40 +216,32 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     return rows[:_TABLE_ROWS]
 
 
-class _Zones(NamedTuple):
-    """Quadratic zones of all elements, or of all nodes: half widths, and which lie only below the mudline."""
-
-    half_width: Floats
-    one_sided: Floats
-
-    @classmethod
-    def of(cls, law: LawAssignment | None, count: int) -> _Zones:
-        """Return the zones of a law at its rows."""
-        half_width, one_sided = np.zeros(count), np.zeros(count)
-        if law is not None:
-            half_width[law.rows] = law.parameters["half_width"]
-            one_sided[law.rows] = law.parameters["one_sided"]
-        return cls(half_width, one_sided)
+def _zones(law: LawAssignment | None, count: int) -> Floats:
+    """Return the quadratic zones (2, count) of all elements or nodes: half widths, and 1 if only below the mudline."""
+    zones = np.zeros((2, count))
+    if law is not None:
+        zones[0, law.rows] = law.parameters["half_width"]
+        zones[1, law.rows] = law.parameters["one_sided"]
+    return zones
 
 
-def _unlike(scene: Scene, weight: Floats, zones: _Zones, elements: Indices) -> list[int]:
+def _unlike(scene: Scene, weight: Floats, zones: Floats, elements: Indices) -> list[int]:
     """Return the first of the elements that share a law, a weight per length and a diameter."""
     if not elements.size:
         return []
     sizes = np.nan_to_num(scene.diameter[elements])
-    width, side = zones.half_width[elements], zones.one_sided[elements]
-    keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
+    keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, *zones[:, elements]])
     begins = np.flatnonzero(np.append(True, (keys[1:] != keys[:-1]).any(axis=1)))
     firsts = np.sort(np.unique(keys[begins], axis=0, return_index=True)[1])[:_TABLE_ROWS]
     shown: list[int] = elements[begins[firsts]].tolist()
     return shown
 
 
-def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, at: int, weight: float) -> dict[str, Any]:
+def _of_element(scene: Scene, arrays: LawArrays, zones: Floats, at: int, weight: float) -> dict[str, Any]:
     diameter = float(scene.diameter[at])
     with np.errstate(all="ignore"):
         if scene.law[at] == LawKind.LINEAR:
-            law = float(arrays.linear_stiffness[at]), zones.half_width[at], zones.one_sided[at]
+            law = float(arrays.linear_stiffness[at]), *zones[:, at]
             depth = float(penetration_under(np.float64(weight), *law))
             slope = float(smoothed_reaction(depth, diameter, *law)[1])
             return _embedment(float(np.divide(depth, diameter)), depth, slope)
@@ -271,7 +263,7 @@ def _of_nodes(scene: Scene, weight: Floats, *, filled: bool) -> list[dict[str, A
     extension = scene.extensions["SEABED CONTACT"]
     ends, count = scene.element_nodes, len(scene.node_ids)
     springs = nodal_springs(scene)
-    stiffness, zones = np.full(count, np.nan), _Zones.of(springs, count)
+    stiffness, zones = np.full(count, np.nan), _zones(springs, count)
     stiffness[springs.rows] = springs.parameters["stiffness"]
     with np.errstate(all="ignore"):
         carried = summed(0.5 * weight * scene.length, ends, count)

@@ -1,12 +1,18 @@
-"""Tables of the summary of a deck and of its contact, for a terminal and for a page."""
+"""Tables of a deck and of its contact for a terminal and a page; the sheet of a deck for files too."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
-from mudline.basics.display import Cell, DisplayTable, number, text
-from mudline.basics.quantities import UnitNames
+import numpy as np
+
+from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
+from mudline.basics.quantities import UnitNames, shown, unit_names
+from mudline.model.contact.columns import ResultColumn
+from mudline.model.results.forms import ResultTables
+from mudline.model.scene.sheet import Sheet
 
 OPEN = "+ a block that is not read may add elements to this set"
 """Meaning of a plus after the number of elements of a set."""
@@ -72,3 +78,105 @@ def weight_note(left_out: Sequence[str], case: int | None = None) -> str:
     """Return a note about the load case of the contents if they differ, and about weights that are left out."""
     notes = [f"weights with the contents of load case {case}"] if case else []
     return "; ".join(notes + ([f"weights without {', '.join(left_out)}"] if left_out else []))
+
+
+def tables_of(summary: dict[str, Any], most: int) -> list[DisplayTable]:
+    """Return the tables of a summary of a deck that have rows; `most` is the largest number of diameters."""
+    names = unit_names(summary["units"])
+    of_set = (text("set", "set"), number("elements", "elements"))
+    stiffness = number("stiffness", "stiffness", names.stiffness, optional=True)
+    tables = (
+        set_table(summary["sets"], names),
+        _curves(summary["curves"], names),
+        diameter_table(summary["diameters"], names, none="none").first(most, "diameter"),
+        DisplayTable("Normal laws", (text("law", "law"), *of_set, stiffness), summary["laws"]),
+        _resistance(summary["bed"], names),
+        DisplayTable("Extensions", (text("keyword", _keyword), *of_set), summary["extensions"]),
+        _static(summary["static_embedment"], names, summary["weights_without"], summary["contents_case"]),
+    )
+    return [table for table in tables if table.rows]
+
+
+def _curves(curves: Rows, names: UnitNames) -> DisplayTable:
+    columns = (
+        text("curve", "name"),
+        text("keyword", _keyword),
+        number("points", "points"),
+        number("ratio", lambda row: _range(row["ratios"])),
+        number("force", lambda row: _range(row["forces"]), names.line_force),
+        number("elements", elements_of),
+    )
+    return DisplayTable("Force-embedment curves", columns, curves)
+
+
+def _keyword(row: dict[str, Any]) -> str:
+    return f"*{row['keyword']}"
+
+
+def _range(ends: list[float] | None) -> str:
+    return "" if ends is None else f"{shown(ends[0])} to {shown(ends[1])}"
+
+
+def _resistance(blocks: Rows, names: UnitNames) -> DisplayTable:
+    columns = (
+        text("set", "set"),
+        number("elements", "elements"),
+        number("friction\ncoefficients", lambda row: _pair(row["friction"]), optional=True),
+        number("mobilisation\nlengths", lambda row: _pair(row["mobilisation"]), names.length, optional=True),
+        number("lateral\nstiffness", "lateral", names.stiffness, optional=True),
+        number("suction\nstiffness", "suction", names.stiffness, optional=True),
+        number("suction\nzone", "extent", names.length, optional=True),
+    )
+    return DisplayTable("Friction, lateral resistance, suction", columns, blocks)
+
+
+def _pair(values: list[float | None]) -> str:
+    return ", ".join(shown(value) or "-" for value in values) if values != [None, None] else ""
+
+
+def _static(rows: Rows, names: UnitNames, left_out: Sequence[str], case: int | None) -> DisplayTable:
+    alike = len({(row["set"], row["law"], row["filled"]) for row in rows}) < len(rows)
+    table = static_table(rows, names, left_out, case, first=alike)
+    return replace(table, columns=[*table.columns, text("extrapolated", "extrapolated", optional=True)])
+
+
+# ------------------------------------------------------------------------------------------------------------ the sheet
+
+SHEET_FORMAT = "mudline-sheet/1"
+
+
+def sheet_tables(sheet: Sheet) -> list[DisplayTable]:
+    """Return the sheet for people: pipe, weights, surroundings, and other load cases if any."""
+    tables = []
+    for subject, columns in sheet.subjects.items() if sheet.rows else ():
+        note = weight_note(sheet.left_out) if "weight" in subject else ""
+        shown = [replace(each, value=_contents) if each.value == "contents" else each for each in columns]
+        table = DisplayTable(f"Sheet: {subject}", [text("elements", _elements), *shown], sheet.rows, note)
+        tables += [table] if subject and columns else []
+    return tables
+
+
+def _elements(row: dict[str, Any]) -> str:
+    first, last = row["first_element"], row["last_element"]
+    return str(first) if first == last else f"{first} to {last}"
+
+
+def _contents(row: dict[str, Any]) -> Cell:
+    value: Cell = row["contents"]
+    return ("not read", "bold yellow") if value is None and row["inner_diameter"] else value
+
+
+def sheet_data(sheet: Sheet, units: str) -> ResultTables:
+    """Return the sheet as a table for files, with the additional keys `left_out` and `unit_of` of JSON."""
+    columns = [_data(key, column, [row[key] for row in sheet.rows]) for key, column in sheet.columns.items()]
+    unit_of = {column.name: column.unit or None for column in columns}
+    return ResultTables({"sheet": columns}, SHEET_FORMAT, units, {"left_out": list(sheet.left_out), "unit_of": unit_of})
+
+
+def _data(key: str, column: DisplayColumn, values: list[Any]) -> ResultColumn:
+    if column.left:
+        names = tuple(dict.fromkeys(value for value in values if value is not None))
+        codes = [-1 if value is None else names.index(value) for value in values]
+        return ResultColumn(key, np.array(codes, np.int32), (*names, None))
+    dtype = np.int64 if key in {"first_element", "last_element", "elements"} else np.float64  # None becomes NaN
+    return ResultColumn(key, np.array(values, dtype), unit=column.unit)

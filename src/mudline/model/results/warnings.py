@@ -22,6 +22,7 @@ from mudline.language.codes.lines import SYN009
 from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
 from mudline.language.keywords.catalogue import holds_in_soil
 from mudline.model.contact import ContactModel, ContactResult, LawKind
+from mudline.model.contact.columns import kept
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation, PositionSource, evaluate_scene
 from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
@@ -161,9 +162,7 @@ class ContactWatch:
         self._own = evaluation.source == "deck"
         self._weight = operating_weight(scene) if given.weight is None else given.weight
         self._elements = evaluation.elements
-        self._rows = self._elements if len(self._elements) < len(scene.element_ids) else slice(None)
         self._nodes = distinct(scene.element_nodes[self._elements])
-        self._columns: Indices | slice = self._nodes if len(self._nodes) < len(scene.nodes) else slice(None)
         self._lightest, self._case = self._least_weight()
         self._touched = np.zeros(len(scene.element_ids), dtype=np.bool_)
         self._restrained = np.zeros(len(scene.nodes), dtype=np.bool_)
@@ -192,9 +191,9 @@ class ContactWatch:
         if not self._acts:
             self._acts = bool(self._touched.any() or self._restrained.any())
             # a spring acts on a node without an element in contact
-            self._acts |= self._sprung and bool(result.normal_force[:, self._columns].any())
+            self._acts |= self._sprung and bool(kept(result.normal_force, self._nodes).any())
             if not self._acts:
-                gap = result.gap[:, self._columns]
+                gap = kept(result.gap, self._nodes)
                 least = float(np.fmin.reduce(gap, axis=None, initial=np.inf))  # NaN means no seabed
                 if least < self._clearance[0]:
                     step, column = np.argwhere(gap == least)[0].tolist()
@@ -223,13 +222,13 @@ class ContactWatch:
         """Add reaction and weights of some steps."""
         scene, before = self._scene, self.balance
         law = scene.law[self._elements]
-        held = result.contact[:, self._rows] & (law != LawKind.NONE)
+        held = kept(result.contact, self._elements) & (law != LawKind.NONE)
         times, here = held.sum(axis=0), self._elements[held.any(axis=0)]
         times = times[times > 0] * scene.length[here]
         with np.errstate(over="ignore", invalid="ignore"):
             weight, empty = (float((times * per[here]).sum()) for per in (self._weight, empty_weight(scene)))
             rigid = (law == LawKind.RIGID).any()
-            reaction = math.nan if rigid else float(result.normal_force[:, self._columns].sum())
+            reaction = math.nan if rigid else float(kept(result.normal_force, self._nodes).sum())
             self.balance = _Balance(
                 before.reaction + reaction,
                 before.weight + weight,

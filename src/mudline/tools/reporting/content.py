@@ -77,9 +77,6 @@ class PageHead(NamedTuple):
     fields: tuple[tuple[str, str], ...] = ()
 
 
-NO_DOCUMENT = PageHead()
-
-
 class Look(NamedTuple):
     """Look of a page: a template in place of the default, and a logo."""
 
@@ -120,7 +117,7 @@ def report_on(
     given: DeckFile,
     settings: LintSettings,
     requested: Collection[str],
-    document: PageHead = NO_DOCUMENT,
+    document: PageHead,
     *,
     rest_shape: bool = False,
 ) -> PageContent:
@@ -144,11 +141,7 @@ def report_on(
     if content.scene is not None:
         head["continues"] = [base.deck.file for base in content.scene.deck.bases]
     for name in of_scene:
-        why = missing
-        try:
-            sections[name] = None if content.scene is None else as_json(_section(name, content.scene, content))
-        except DeckError as error:
-            sections[name], why = None, _reason(error)
+        sections[name], why = _section(name, content, missing)
         if why:
             head["missing"][name] = why
     head["inferred"] = [] if deck is None else inferences(deck)
@@ -156,18 +149,14 @@ def report_on(
         if stage["active"] and "(inferred)" in stage["why"]:
             head["inferred"].append({"keyword": "", "fields": [stage["stage"]], "inferred": stage["why"], "blocks": 1})
     if "verdict" in requested:
-        head["figures"] = _figures(content, sections.get("contact"), missing)
+        contact = sections.get("contact")
+        head["figures"] = _figures(*((contact, "") if contact else _section("contact", content, missing)))
     content.json = _without_folders(head, given)
     return content
 
 
-def _figures(content: PageContent, contact: dict[str, Any] | None, missing: str) -> dict[str, Any]:
+def _figures(contact: dict[str, Any] | None, missing: str) -> dict[str, Any]:
     """Return the five numbers of the contact next to the verdict; without them, `missing` as the reason."""
-    if contact is None and content.scene is not None:
-        try:
-            contact = as_json(_contact(content.scene, content))
-        except DeckError as error:
-            missing = _reason(error)
     if contact is None:
         return {"missing": missing}
     lines = contact["lines"]
@@ -206,7 +195,15 @@ def _without_folders(value: Any, given: DeckFile) -> Any:  # noqa: ANN401 - what
     return plain(value)
 
 
-def _section(name: str, scene: Scene, content: PageContent) -> dict[str, Any]:
+def _section(name: str, content: PageContent, missing: str) -> tuple[dict[str, Any] | None, str]:
+    """Return a section, or the reason why it cannot be computed, which is `missing` without a scene."""
+    try:
+        return (None if content.scene is None else as_json(_computed(name, content.scene, content))), missing
+    except DeckError as error:
+        return None, _reason(error)
+
+
+def _computed(name: str, scene: Scene, content: PageContent) -> dict[str, Any]:
     if name == "contact":
         return _contact(scene, content)
     if name == "study":
@@ -232,7 +229,10 @@ def _judged(given: DeckFile, settings: LintSettings) -> tuple[Verdict, Deck | No
 
 
 def _head(given: DeckFile, deck: Deck | None, verdict: Verdict, document: PageHead) -> dict[str, Any]:
-    """Return the head of the content: deck, state, program."""
+    """Return the head of the content: deck, state, program. The first line of a `*TITLE` is its title."""
+    sections = [] if deck is None else deck.own_sections
+    titles = (block for section in sections for block in section.blocks if block.keyword == "TITLE")
+    lines = (line.strip() for block in titles for line in getattr(block, "lines", ()))
     return {
         "format": FORMAT,
         "deck": given.name,
@@ -241,7 +241,7 @@ def _head(given: DeckFile, deck: Deck | None, verdict: Verdict, document: PageHe
         "version": __version__,
         "document": document._asdict()
         | {
-            "title": document.title or ("" if deck is None else _title(deck)),
+            "title": document.title or next(filter(None, lines), ""),
             "fields": [{"name": name, "value": value} for name, value in document.fields],
         },
         "units": None if deck is None else deck.units,
@@ -251,13 +251,6 @@ def _head(given: DeckFile, deck: Deck | None, verdict: Verdict, document: PageHe
         "sections": {},
         "missing": {},
     }
-
-
-def _title(deck: Deck) -> str:
-    """Return the first line of a `*TITLE`; "" without a title."""
-    blocks = (block for section in deck.own_sections for block in section.blocks if block.keyword == "TITLE")
-    lines = (line.strip() for block in blocks for line in getattr(block, "lines", ()))
-    return next(filter(None, lines), "")
 
 
 def _scene(deck: Deck | None) -> tuple[Scene | None, str]:

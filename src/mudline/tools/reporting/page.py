@@ -1,96 +1,85 @@
-"""HTML of a page, from tables of its content and jinja2 templates, which escape every text. Needs jinja2."""
+"""HTML of a page, from tables and pictures of its content and jinja2 templates, which escape every text.
+
+Needs jinja2 and matplotlib.
+"""
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from io import BytesIO
 from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+from xml.etree import ElementTree as ET
 
 import jinja2
+import matplotlib as mpl
 from jinja2.sandbox import SandboxedEnvironment
 from markupsafe import Markup
+from matplotlib.figure import Figure
 
 from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.checks.configuration import SEVERITIES
 from mudline.checks.output import visible
+from mudline.model.results.plots import can_draw, evaluation_figure, model_figure
+from mudline.model.results.plots.curves import curves_figure
+from mudline.model.results.plots.style import save
+from mudline.model.scene.curves import OF_SEABED
 from mudline.tools.reporting.content import Look, LookError, PageContent
-from mudline.tools.reporting.pictures import Picture
-from mudline.tools.reporting.tables import (
-    DETAILS,
-    LONGEST,
-    TABLES,
-    PageTable,
-    figure_table,
-    four_digits,
-    input_tables,
-    on_page,
-    study_tables,
-)
+from mudline.tools.reporting.tables import figure_table, four_digits, on_page, page_tables
 from mudline.tools.touchdown_study.screen import description, sentences
 
 MOST_FINDINGS = 500
 _FEW_FINDINGS, _FEW_INFERRED = 6, 20
 """Findings and deductions before the appendix, which has all."""
-_LONGEST_LINE = 160
-"""Characters of a line of the deck that a page shows."""
+_MOST_RULES = 16
+"""Rules behind many findings that a page lists."""
+_LONGEST, _LONGEST_LINE = 600, 160
+"""Characters of a text, and of a line of the deck, that a page shows."""
 _AROUND = 1
 """Lines of the deck shown above and below that of a finding."""
 
 
-def page(report: PageContent, pictures: Sequence[Picture], left_out: int, look: Look) -> str:
+def page(report: PageContent, look: Look) -> str:
     """Return the page about a deck. Raises LookError."""
     content = report.json
-    sections = content["sections"]
-    names = unit_names(content["units"])
-    tables, details = (
-        {name: list(shape(sections[name], names)) for name, shape in each.items() if sections.get(name)}
-        for each in (TABLES, DETAILS)
-    )
-    if inputs := sections.get("inputs"):
-        tables["inputs"] = list(input_tables(inputs, report.sheet, content["deck"]))
-    figures = content.get("figures")
+    tables, details = page_tables(report)
+    figures, document = content.get("figures"), content["document"]
+    revision = f"revision {document['revision']}" if document["revision"] else None
     findings = _groups(report, "reported", lambda severity: severity != "info")
     hidden = _groups(report, "hidden")
-    for name, each in tables.items():
-        if long := [table for table in each if len(table.rows) > table.most]:
-            details[name] = [*long, *details.get(name, ())]
-        tables[name] = [table.first(f"more-{name}") for table in each]
-    if report.study is not None:
-        tables["study"] = study_tables(report.study)
-    return _rendered(
+    study, study_texts = report.study, [""]
+    if study is not None:
+        study_texts = [description(study), *(words for part in study.parts for words in sentences(study, part))]
+    pictures, pictures_left = pictures_of(report)
+    return rendered(
         look,
         "page.html",
         report=content,
         tables=tables,
         details=details,
-        figures=figure_table(figures, names) if figures and not figures["missing"] else None,
-        head=_css_text(_head_words(content)),
+        figures=figure_table(figures, unit_names(content["units"])) if figures and not figures["missing"] else None,
+        head=_css_text(", ".join(filter(None, [document["number"], revision, content["deck"]]))),
         hash=_css_text(f"SHA-256 {content['sha256'][:_SHORT_HASH]}"),
-        study_texts=_study_texts(report),
+        study_texts=filter(None, study_texts),
         findings=findings,
         infos=_groups(report, "reported", lambda severity: severity == "info"),
         hidden=hidden,
         by_rule={"findings": _by_rule(report, findings), "hidden": _by_rule(report, hidden)},
         most_inferred=_FEW_INFERRED,
         rules=report.named,
-        pictures=[picture._replace(markup=Markup(picture.markup)) for picture in pictures],  # noqa: S704 - made from our figures
-        pictures_left=left_out,
+        pictures=pictures,
+        pictures_left=pictures_left,
         most=MOST_FINDINGS,
     )
 
 
 _SHORT_HASH = 16
-
-
-def _head_words(content: dict[str, Any]) -> str:
-    """Return document, revision and deck, as printed at the head of every page."""
-    document = content["document"]
-    revision = f"revision {document['revision']}" if document["revision"] else None
-    return ", ".join(filter(None, [document["number"], revision, content["deck"]]))
 
 
 def _css_text(text: str) -> Markup:
@@ -99,21 +88,8 @@ def _css_text(text: str) -> Markup:
     return Markup(f'"{"".join(plain)}"')  # noqa: S704 - letters, digits and character numbers
 
 
-def _study_texts(report: PageContent) -> list[str]:
-    """Return the sentences of a study, next to its tables."""
-    study = report.study
-    if study is None:
-        return []
-    remarks = [text for part in study.parts for text in sentences(study, part)]
-    return [text for text in (description(study), *remarks) if text]
-
-
-def index_page(rows: Sequence[dict[str, Any]], version: str, look: Look) -> str:
-    """Return the index of many pages, whose `rows` have the names that the template uses. Raises LookError."""
-    return _rendered(look._replace(template=None), "index.html", rows=rows, version=version)
-
-
-def _rendered(look: Look, name: str, **values: object) -> str:
+def rendered(look: Look, name: str, **values: object) -> str:
+    """Return a template with values, which has the given one in place of the default. Raises LookError."""
     loaders: list[jinja2.BaseLoader] = [jinja2.PackageLoader("mudline.tools.reporting")]
     if look.template is not None:
         loaders.insert(0, jinja2.FileSystemLoader(look.template.parent))
@@ -143,7 +119,7 @@ def _finalized(value: object) -> object:
 
 
 def _number(value: object) -> str:
-    return four_digits(value) if isinstance(value, float) else "" if value is None else str(value)
+    return four_digits(value) if isinstance(value, float) else "" if value is None else cut(str(value), _LONGEST)
 
 
 _LOGOS = {".svg": ("image/svg+xml", (b"<",)), ".png": ("image/png", (b"\x89PNG",))}
@@ -181,7 +157,7 @@ def _groups(
     rows = [
         {
             "number": number,
-            "found": finding | {"message": cut(finding["message"], LONGEST)},
+            "found": finding | {"message": cut(finding["message"], _LONGEST)},
             "lines": _lines(report, finding["line"]),
         }
         for number, finding in enumerate(findings, 1)
@@ -190,7 +166,7 @@ def _groups(
     return [(name, list(group)) for name, group in groupby(rows, key=lambda row: str(row["found"]["section"]))]
 
 
-def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]]) -> PageTable | None:
+def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]]) -> DisplayTable | None:
     """Return many findings as a table of the rules behind them, errors first; None for few findings."""
     findings = [shown["found"] for _, group in groups for shown in group]
     if len(findings) <= _FEW_FINDINGS:
@@ -204,7 +180,7 @@ def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]])
         number("findings", lambda row: len(row[2])),
         text("lines", lambda row: ", ".join(map(str, row[2][:_FEW])) + (" ..." if len(row[2]) > _FEW else "")),
     )
-    return on_page(DisplayTable("By rule", columns, lines), 16, longest=LONGEST)
+    return on_page(DisplayTable("By rule", columns, lines), _MOST_RULES)
 
 
 _FEW = 4
@@ -215,3 +191,97 @@ def _lines(report: PageContent, line: int) -> list[tuple[int, str]]:
     last = len(report.source.line_starts)
     around = range(max(1, line - _AROUND), min(last, line + _AROUND) + 1)
     return [(number, cut(report.source.line(number), _LONGEST_LINE)) for number in around]
+
+
+# ------------------------------------------------------------------------------------------------------------- pictures
+
+_MOST_PICTURES = 20
+_MOST_SINGLE, _MOST_TOGETHER = 2, 12
+"""Numbers of seabed curves with a picture of their own before the appendix, and in the one picture of more curves."""
+_MOST_BYTES = 600_000
+"""Bytes of all pictures of a page, which is to be sent by mail."""
+_LARGEST_SVG = 120_000
+
+_REFERENCE = re.compile(r"url\(#([^)]+)\)")
+
+
+class Picture(NamedTuple):
+    """A picture: its section and its markup."""
+
+    section: str
+    markup: Markup
+
+
+def pictures_of(report: PageContent) -> tuple[list[Picture], int]:
+    """Return the pictures of a page, inline SVG, or PNG if that is smaller, and the number of those left out."""
+    pictures: list[Picture] = []
+    size = left = 0
+    for place, (section, alternative, draw) in enumerate(_drawings(report)):
+        if len(pictures) == _MOST_PICTURES or size > _MOST_BYTES:
+            left += 1
+            continue
+        markup = _markup(draw(), f"p{place}", alternative)
+        size += len(markup)
+        pictures.append(Picture(section, Markup(markup)))  # noqa: S704 - made from our figures
+    return pictures, left
+
+
+def _drawings(report: PageContent) -> Iterator[tuple[str, str, Callable[[], Figure]]]:
+    """Yield each picture of the sections, the most important first, and the function that draws it."""
+    scene, sections, drawn, study = report.scene, report.json["sections"], report.drawn, report.study
+    if scene is None:
+        return
+    if sections.get("model") and can_draw(scene):
+        shape = "at its resting shape" if report.at_rest and drawn is not None else "in the deck's own coordinates"
+        words = f"Elevation and plan of the line {shape}, by set, over the seabed"
+        yield "model", words, partial(model_figure, scene, drawn)
+    if sections.get("contact") and drawn is not None:
+        words = "Contact along the line: its height, the seabed reaction, embedment and stiffness"
+        yield "contact", words, partial(evaluation_figure, drawn, report.doubt)
+    if study is not None and study.drawable:
+        words = "Error of the touchdown zone against run time, with the deck's own time step"
+        yield "study", words, study.figure
+    rows = (sections.get("curves") or {}).get("curves", ())
+    of_seabed = [row for row in rows if row["kind"] == OF_SEABED]
+    if several := len(of_seabed) > _MOST_SINGLE:
+        followed = {law["law"] for law in sections["curves"]["laws"] if law["elements"]}
+        of_seabed.sort(key=lambda row: f"curve:{row['name']}" not in followed)
+        words = f"{min(_MOST_TOGETHER, len(of_seabed))} of {len(of_seabed)} force-embedment curves"
+        yield "curves", words, partial(curves_figure, of_seabed[:_MOST_TOGETHER], scene.units)
+    for row in rows:
+        words = f"The {row['kind']} {visible(row['name'])}: {row['axes'][1]} over {row['axes'][0]}"
+        section = "curves" if row["kind"] == OF_SEABED and not several else "appendix"
+        yield section, words, partial(curves_figure, [row], scene.units)
+
+
+def _markup(figure: Figure, prefix: str, alternative: str) -> str:
+    """Return SVG without the parts that a page does not need; a large picture as PNG, whose size is bounded."""
+    stream = BytesIO()
+    with mpl.rc_context({"svg.fonttype": "none"}):  # texts stay texts
+        save(figure, "svg", stream)
+    root = ET.fromstring(stream.getvalue())  # noqa: S314 - matplotlib made it
+    _strip(root, prefix)
+    root.attrib.update({"role": "img", "aria-label": alternative})
+    for name in ("width", "height", "version"):
+        root.attrib.pop(name, None)
+    text = ET.tostring(root, encoding="unicode")
+    if len(text) <= _LARGEST_SVG:
+        return text
+    stream = BytesIO()
+    save(figure, "png", stream)
+    image = ET.Element("img", src=f"data:image/png;base64,{b64encode(stream.getvalue()).decode()}", alt=alternative)
+    return ET.tostring(image, encoding="unicode", method="html")
+
+
+def _strip(root: ET.Element, prefix: str) -> None:
+    """Remove namespaces and metadata, and make ids differ from those of other pictures."""
+    for element in list(root.iter()):
+        element.tag = element.tag.rpartition("}")[2]
+        for child in element.findall("{*}metadata"):
+            element.remove(child)
+        for name, value in list(element.attrib.items()):
+            short, mark = name.rpartition("}")[2], "#" if name.endswith("href") else ""
+            del element.attrib[name]
+            own = short == "id" or (mark and value.startswith(mark))
+            renamed = f"{mark}{prefix}-{value.removeprefix(mark)}" if own else value
+            element.set(short, _REFERENCE.sub(rf"url(#{prefix}-\1)", renamed))

@@ -6,22 +6,15 @@ import os
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from mudline.basics.paths import relative_path
 from mudline.basics.version import __version__
 from mudline.checks.engine import LintSettings
 from mudline.tools.reporting.content import DeckFile, Look, LookError, PageHead, report_on
 
-
-class Made(NamedTuple):
-    """Result of making a page: its content, its HTML (None if not requested), and the reason for a failure."""
-
-    content: dict[str, Any]
-    html: str | None
-    fault: str = ""
-
-
+Made = tuple[dict[str, Any], str | LookError | None]
+"""Content of a page, and its HTML, None if not requested, or the fault of its look."""
 Wanted = tuple[tuple[str, ...], PageHead, Look | None, bool]
 """Sections of a page, its head, its look (None for JSON), and True for contact at the resting shape."""
 
@@ -31,14 +24,13 @@ def make_page(given: DeckFile, settings: LintSettings, wanted: Wanted) -> Made:
     sections, document, look, rest_shape = wanted
     report = report_on(given, settings, sections, document, rest_shape=rest_shape)
     if look is None:
-        return Made(report.json, None)
-    from mudline.tools.reporting.page import page  # noqa: PLC0415 - needs jinja2
-    from mudline.tools.reporting.pictures import pictures_of  # noqa: PLC0415 - needs matplotlib
+        return report.json, None
+    from mudline.tools.reporting.page import page  # noqa: PLC0415 - needs jinja2 and matplotlib
 
     try:
-        return Made(report.json, page(report, *pictures_of(report), look))
+        return report.json, page(report, look)
     except LookError as error:
-        return Made(report.json, None, str(error))
+        return report.json, error
 
 
 class Pages:
@@ -63,19 +55,21 @@ class Pages:
 
     def add(self, result: Made, name: str) -> None:
         """Write the page about a deck; raises LookError."""
-        if result.fault:
-            raise LookError(result.fault)
-        page = None if result.html is None else self._page(name)
-        if page is not None and result.html is not None:
-            self._write(page, result.html)
-        self.rows.append(self._row(result.content, name, page))
+        content, html = result
+        if isinstance(html, LookError):
+            raise html
+        page = None if html is None else self._page(name)
+        if page is not None and html is not None:
+            self._write(page, html)
+        self.rows.append(self._row(content, name, page))
 
     def finish(self, look: Look) -> None:
         """Write the index, if there is one; raises LookError."""
         if self.folder is not None and self.index is not None:
-            from mudline.tools.reporting.page import index_page  # noqa: PLC0415 - needs jinja2
+            from mudline.tools.reporting.page import rendered  # noqa: PLC0415 - needs jinja2
 
-            self._write(self.index, index_page(self.rows, __version__, look))
+            plain = look._replace(template=None)
+            self._write(self.index, rendered(plain, "index.html", rows=self.rows, version=__version__))
 
     def _page(self, deck: str) -> Path | None:
         """Return the file of the page about a deck, different for each page of a run."""

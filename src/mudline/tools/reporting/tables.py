@@ -2,95 +2,69 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import Any
 
-from mudline.basics.display import Cell, DisplayTable, number, text
+from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import UnitNames, labelled, shown
+from mudline.basics.quantities import UnitNames, labelled, shown, unit_names
 from mudline.basics.short_repr import counted, cut
-from mudline.model.results.sheet_tables import sheet_tables
 from mudline.model.results.summary_tables import (
     OPEN,
     diameter_table,
     elements_of,
     law_table,
     set_table,
+    sheet_tables,
     static_table,
     weight_note,
 )
 from mudline.model.results.totals import NOT_KNOWN, touchdown_words
 from mudline.model.scene.curves import OF_SEABED
 from mudline.model.scene.sheet import Sheet
+from mudline.tools.reporting.content import PageContent
 from mudline.tools.touchdown_study.screen import TABLES as STUDY_TABLES
-from mudline.tools.touchdown_study.study import Study
 
 MOST_CURVES = 50
 """Curves and sets that a page shows."""
+_FEW_INPUTS = 16
+"""Inputs before the appendix, which has all."""
 _MOST_TOUCHDOWNS = 5
-LONGEST, LONGEST_NAME = 600, 80
-"""Characters of a message and of a name that a page shows."""
+LONGEST_NAME = 80
+"""Characters of a name in a caption."""
+_ALL = "the JSON of this report has all"
 
 
-class PageTable(NamedTuple):
-    """A table on a page.
-
-    Attributes:
-        caption: the caption.
-        heads: headings of the columns.
-        rows: the rows.
-        note: text below the table.
-        anchors: anchors of the rows.
-        anchor: anchor of the table.
-        numeric: places of columns that are aligned right.
-        more: sentence on rows that are not on the page.
-        whole: anchor of the section with the whole table.
-        most: rows before the appendix, which has all.
-    """
-
-    caption: str
-    heads: Sequence[str]
-    rows: Sequence[Sequence[Cell]]
-    note: str = ""
-    anchors: Sequence[str] = ()
-    anchor: str = ""
-    numeric: Collection[int] = ()
-    more: str = ""
-    whole: str = ""
-    most: int = 8
-
-    def first(self, whole: str) -> PageTable:
-        """Return the rows before the appendix, without anchors if that has more, at the anchor `whole`."""
-        if len(self.rows) <= self.most:
-            return self
-        return self._replace(rows=self.rows[: self.most], anchors=(), more="", whole=whole)
+def on_page(table: DisplayTable, most: int = SHOWN_ROWS) -> DisplayTable:
+    """Return a table with at most `most` rows, and without empty columns."""
+    return table.filled().first(most, advice=_ALL)
 
 
-def on_page(
-    table: DisplayTable,
-    most: int = SHOWN_ROWS,
-    anchors: str = "",
-    longest: int = LONGEST_NAME,
-) -> PageTable:
-    """Return a table of at most `most` rows, with an anchor for each if `anchors` is given; longer texts are cut."""
-    table = table.filled()
-    rows = [[cut(cell, longest) if isinstance(cell, str) else cell for cell in row] for row in table.cells()]
-    more = _more(len(rows) - most, "row")
-    numeric = [at for at, column in enumerate(table.columns) if not column.left]
-    names = [f"{anchors}-{row}" for row in range(1, len(rows[:most]) + 1)] if anchors else []
-    heads = [column.head.replace("\n", " ") for column in table.columns]
-    return PageTable(table.title, heads, rows[:most], table.note, names, numeric=numeric, more=more)
-
-
-def _more(count: int, what: str) -> str:
-    return f"{counted(count, f'more {what}')}: the JSON of this report has all" if count > 0 else ""
+def page_tables(report: PageContent) -> tuple[dict[str, list[DisplayTable]], dict[str, list[DisplayTable]]]:
+    """Return the tables by section, and those of the appendix, which has the long ones too."""
+    content, names = report.json, unit_names(report.json["units"])
+    sections = content["sections"]
+    of_section = {"model": _model, "curves": _curves, "contact": _contact}
+    of_appendix = {"model": _model_details, "curves": _curve_points, "contact": _states, "plan": _plan}
+    tables, details = (
+        {name: list(shape(sections[name], names)) for name, shape in each.items() if sections.get(name)}
+        for each in (of_section, of_appendix)
+    )
+    if inputs := sections.get("inputs"):
+        tables["inputs"] = list(_inputs(inputs, report.sheet, content["deck"]))
+    for name, each in tables.items():
+        if long := [table for table in each if len(table.rows) > table.few]:
+            details[name] = [*long, *details.get(name, ())]
+    if (study := report.study) is not None:
+        tables["study"] = [on_page(table) for part in study.parts if (table := STUDY_TABLES[part](study))]
+    return tables, details
 
 
 _SHAPES = {"deck": "the deck's own coordinates", "rest shape": "the resting shape"}
 """Description of the shape of the line, by the source of its positions."""
 
 
-def figure_table(content: dict[str, Any], names: UnitNames) -> PageTable:
+def figure_table(content: dict[str, Any], names: UnitNames) -> DisplayTable:
     """Return the five numbers next to the verdict as a table of one row."""
     words = _touchdown(content["touchdown"], content["contact_length"], content["length"])
     doubt = f"warnings about these numbers: {', '.join(content['warnings'])}" if content["warnings"] else ""
@@ -115,7 +89,7 @@ def four_digits(value: float | None) -> str:
 _PLAIN = 1e7
 
 
-def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str) -> Iterator[PageTable]:
+def _inputs(content: dict[str, Any], sheet: Sheet | None, deck: str) -> Iterator[DisplayTable]:
     """Yield the inputs of a deck and of the decks that it continues, and the sheet of the elements."""
     columns = (
         text("section", "section"),
@@ -123,19 +97,19 @@ def input_tables(content: dict[str, Any], sheet: Sheet | None, deck: str) -> Ite
         text("values", "values"),
         text("line", lambda row: str(row["line"]) if row["file"] == deck else f"{row['line']} of {row['file']}"),
     )
-    table = DisplayTable("Water, conditions, loads, vessels and times", columns, content["inputs"])
-    yield on_page(table, MOST_CURVES, longest=LONGEST)._replace(most=16)
+    title = "Water, conditions, loads, vessels and times"
+    yield on_page(DisplayTable(title, columns, content["inputs"], few=_FEW_INPUTS), MOST_CURVES)
     for table in () if sheet is None else sheet_tables(sheet):
         yield on_page(table, 2 * SHOWN_ROWS)
 
 
-def _model(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
+def _model(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable]:
     # empty and with contents side by side
     rows = sorted(content["static_embedment"], key=lambda row: int(row["element"]))
     yield on_page(static_table(rows, names, content["weights_without"], content["contents_case"], first=False))
 
 
-def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
+def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable]:
     more = "+" if content["sets"][0]["open"] else ""  # of ALL, which comes first
     counts = [(name, f"{content[name]}{more}") for name in ("nodes", "elements")]
     counts += [("seabed", content["floor"]["kind"]), (labelled("length of line", names.length), content["length"])]
@@ -154,20 +128,20 @@ def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[PageTa
 _FIGURES = (text("what", 0), number("value", 1))
 
 
-def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
+def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
     columns = (
-        text("law", lambda row: cut(row["law"], LONGEST_NAME)),
-        text("set", lambda row: cut(row["set"], LONGEST_NAME)),
+        text("law", "law"),
+        text("set", "set"),
         number("elements", elements_of),
         text("values", "words"),
         text("deck line", lambda row: f"line {row['line']} of {row['file']}"),
     )
     note = OPEN if any(row["open"] for row in content["laws"]) else ""
-    laws = DisplayTable("Laws and resistance by set", columns, content["laws"], note)
-    yield on_page(laws, MOST_CURVES, "law", LONGEST)
+    laws = DisplayTable("Laws and resistance by set", columns, content["laws"], note, row_anchor="law")
+    yield on_page(laws, MOST_CURVES)
 
 
-def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
+def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable]:
     for place, row in enumerate(content["curves"][:MOST_CURVES], 1):
         over, value = row["axes"]
         slopes = [segment["slope"] for segment in row["segments"]]
@@ -178,16 +152,17 @@ def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[PageTab
         own = ["", names.line_force] if of_seabed else [unit.replace("-", "") for unit in row.get("units", ["", ""])]
         slope = [number("slope to the next", 2, own[1])] if of_seabed else []
         of_points = (number(over, 0, own[0]), number(value, 1, own[1]), *slope)
-        table = DisplayTable(caption + (ends if of_seabed else ""), of_points, points)
-        yield on_page(table)._replace(anchor=f"curve-{place}")
-    yield PageTable("", (), (), more=_more(len(content["curves"]) - MOST_CURVES, "curve"))
+        caption += ends if of_seabed else ""
+        yield on_page(DisplayTable(caption, of_points, points, anchor=f"curve-{place}"))
+    if (left := len(content["curves"]) - MOST_CURVES) > 0:
+        yield DisplayTable("", (), (), f"{counted(left, 'more curve')}: {_ALL}")
 
 
 def _weight_note(content: dict[str, Any]) -> str:
     return weight_note(content["weights_without"], content["contents_case"])
 
 
-def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
+def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable]:
     masses = "" if any(keyword.startswith("*MASS") for keyword in content["weights_without"]) else " and masses"
     weight = f"submerged weight of the elements in contact, with contents{masses}"
     figures = [
@@ -203,10 +178,15 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     title = f"Equilibrium of {_SHAPES[content['positions']]}"
     yield on_page(DisplayTable(title, _FIGURES, figures, "; ".join(filter(None, notes))))
     yield on_page(law_table("By law and set", content["laws"], names, "reaction"), MOST_CURVES)
+
+    def of_line(line: dict[str, Any]) -> str:
+        places = (point["arc_length"] for point in line["touchdown"])
+        return _touchdown(places, line["contact_length"], line["length"])
+
     columns = [
         number("line", "line"),
         text("elements", lambda row: f"{row['first_element']} to {row['last_element']}"),
-        number("touchdown at arc length", _touchdown_of_line, names.length),
+        number("touchdown at arc length", of_line, names.length),
         number("length in contact", "contact_length", names.length),
         number("largest force", lambda row: (row["largest_force"] or {}).get("force"), names.line_force),
         number("reaction", "reaction", names.force, missing=NOT_KNOWN),
@@ -217,46 +197,20 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[PageTable]:
     yield on_page(DisplayTable("Touchdown", columns, content["lines"], _weight_note(content)))
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
     warnings = content["warnings"][:SHOWN_ROWS]
-    yield on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
+    yield on_page(DisplayTable("Warnings about these results", columns, warnings))
 
 
-def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
+def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
     columns = [text("law", "law"), text("state", "state"), number("count", "count")]
     yield on_page(DisplayTable("States", columns, content["states"]))
-
-
-def _touchdown_of_line(line: dict[str, Any]) -> str:
-    places = [point["arc_length"] for point in line["touchdown"]]
-    return _touchdown(places, line["contact_length"], line["length"])
 
 
 def _touchdown(places: Iterable[float], in_contact: float, length: float) -> str:
     return touchdown_words([float(four_digits(each)) for each in places], in_contact, length, _MOST_TOUCHDOWNS)
 
 
-def study_tables(result: Study) -> list[PageTable]:
-    """Return the tables of a study as on the terminal."""
-    return [on_page(table, longest=LONGEST) for part in result.parts if (table := STUDY_TABLES[part](result))]
-
-
-def _plan(content: dict[str, Any], _names: UnitNames) -> Iterator[PageTable]:
+def _plan(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
     stages = content["stages"]
     columns = (text("stage", "stage"), text("in or out", lambda row: "in" if row["active"] else "left out"))
     table = DisplayTable(f"Stages of the evaluation, {content['steps']}", [*columns, text("why", "why")], stages)
-    yield on_page(table, len(stages), longest=LONGEST)
-
-
-TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[PageTable]]] = {
-    "model": _model,
-    "curves": _curves,
-    "contact": _contact,
-}
-"""Functions that make the tables of a section."""
-
-DETAILS: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[PageTable]]] = {
-    "model": _model_details,
-    "curves": _curve_points,
-    "contact": _states,
-    "plan": _plan,
-}
-"""Functions that make the tables of a section in the appendix."""
+    yield on_page(table, len(stages))

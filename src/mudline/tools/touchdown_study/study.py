@@ -133,7 +133,7 @@ class Study:
         """Draw the errors over the run time, and return the axes; needs matplotlib."""
         from matplotlib import pyplot as plt  # noqa: PLC0415 - needs the extra `plot`
 
-        from mudline.model.results.plots.run_times import draw_run_times  # noqa: PLC0415 - as above
+        from mudline.model.results.plots import draw_run_times  # noqa: PLC0415 - as above
 
         axes = plt.subplots()[1] if ax is None else ax
         draw_run_times(axes, self.run_times, self.errors, self.is_own, ERRORS)
@@ -141,7 +141,7 @@ class Study:
 
     def figure(self) -> Figure:
         """Return the diagram as a figure of its own; needs matplotlib."""
-        from mudline.model.results.plots.run_times import run_times_figure  # noqa: PLC0415 - needs the extra `plot`
+        from mudline.model.results.plots import run_times_figure  # noqa: PLC0415 - needs the extra `plot`
 
         return run_times_figure(self.deck, self.run_times, self.errors, self.is_own, ERRORS)
 

@@ -19,7 +19,7 @@ import numpy as np
 from mudline.basics.installed import install_hint
 from mudline.basics.quantities import RESULT_FORMAT, time_unit
 from mudline.model.contact import Plan
-from mudline.model.contact.columns import ResultColumn, ResultTable
+from mudline.model.contact.columns import ResultColumn
 from mudline.model.contact.frames import array_name
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
@@ -75,8 +75,6 @@ TEXTS = ("csv", "json")
 
 More = Mapping[str, object]
 """Additional keys of JSON with their values."""
-NamedTables = Mapping[str, ResultTable]
-"""Tables of results, by name."""
 Columns = Mapping[str, Sequence[ResultColumn]]
 """The columns of some steps, by table name."""
 Write = Callable[[Iterator[str]], None]
@@ -124,10 +122,10 @@ class FileContent:
 class Writer(Protocol):
     """Writer of the columns of all tables of a file, or of several, a few steps at a time."""
 
-    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]], /) -> None:
         """Write the steps from `start` on; `beside` are values for each of them that only JSON can hold."""
 
-    def finish(self, more: More) -> None:
+    def finish(self, more: More, /) -> None:
         """Write values that are known only after the last step."""
 
 
@@ -141,13 +139,18 @@ class Sink:
     def __init__(
         self,
         evaluation: Evaluation,
-        tables: NamedTables,
-        writer: Writer,
         form: str,
+        open_writer: Callable[[FileContent], Writer],
         comparison: ResultComparison | None = None,
+        only: str | None = None,
     ) -> None:
-        self._evaluation, self._tables, self._writer, self._form = evaluation, tables, writer, form
-        self._comparison = comparison
+        """Open the writer of a format for all tables, or of CSV for one table. Raises what `open_writer` does."""
+        self._evaluation, self._form, self._comparison = evaluation, form, comparison
+        names = ("elements", "nodes", "summary") if only is None else (only,)
+        self._tables = {name: evaluation.table(name) for name in (("elements", "nodes") if form == "json" else names)}
+        rows = {name: table.rows for name, table in self._tables.items()}
+        plan = {"plan": plan_rows(evaluation.model.plan)}
+        self._writer = open_writer(FileContent(rows, evaluation.scene.units, head=plan, times=evaluation.time))
         self._lines: list[LineSummary] = []
 
     def take(self, part: ResultPart) -> None:
@@ -174,19 +177,6 @@ class Sink:
         self._writer.finish(more if self._comparison is None else more | {"against": self._comparison.summary()})
 
 
-def tables_of(evaluation: Evaluation, form: str, only: str | None = None) -> NamedTables:
-    """Return the tables of results in a format, or one table of CSV; JSON has the lines after the last step."""
-    every = ("elements", "nodes", "summary") if only is None else (only,)
-    return {name: evaluation.table(name) for name in (("elements", "nodes") if form == "json" else every)}
-
-
-def contents_of(evaluation: Evaluation, tables: NamedTables) -> FileContent:
-    """Return the contents of a file with these tables of results."""
-    rows = {name: table.rows for name, table in tables.items()}
-    plan = {"plan": plan_rows(evaluation.model.plan)}
-    return FileContent(rows, evaluation.scene.units, head=plan, times=evaluation.time)
-
-
 @dataclass(frozen=True, slots=True)
 class ResultOutput:
     """Destination of the contents of a file: its format, and open files in a folder, one for each table or one for all.
@@ -203,7 +193,7 @@ class ResultOutput:
     tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
 
     def writer(self) -> Writer:
-        """Return the writer. Raises FormError, and ImportError as `form_module` does."""
+        """Return the writer. Raises FormError, OSError, and ImportError as `form_module` does."""
         writer: Writer = form_module(self.form).writer(self)
         return writer
 
@@ -211,11 +201,6 @@ class ResultOutput:
 def form_module(form: str) -> ModuleType:
     """Return the module of a format; raises ImportError without the library that it needs."""
     return import_module(f"{__name__}.{'text' if form in TEXTS else form}")
-
-
-def table_path(path: Path, table: str) -> Path:
-    """Return the file of another table next to that of the elements."""
-    return path.with_name(f"{path.stem}-{table}{path.suffix}")
 
 
 def plan_rows(plan: Plan) -> list[dict[str, Any]]:

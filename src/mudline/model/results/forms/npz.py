@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import repeat
 from tempfile import TemporaryFile
 from typing import IO, Any
 
@@ -27,9 +28,8 @@ class NpzWriter:
         self._output, self._contents = output, output.contents
         self._arrays: dict[str, _Array] = {}
 
-    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+    def write(self, columns: Columns, _start: int, _count: int, _beside: Mapping[str, Sequence[object]]) -> None:
         """Keep some steps. Raises OSError."""
-        del start, count, beside
         for table, each in columns.items():
             for column in each:
                 name = self._contents.array_name(table, column.name)
@@ -37,9 +37,8 @@ class NpzWriter:
                     self._arrays[name] = _Array(column, None if column.steady else self._file())
                 self._arrays[name].take(column)
 
-    def finish(self, more: More) -> None:
+    def finish(self, _more: More) -> None:
         """Write the archive; it cannot hold `more`. Raises OSError."""
-        del more
         times, steps = self._contents.times, self._contents.steps
         with zipfile.ZipFile(self._output.streams[0], "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
             for name, array in self._output.tracked(list(self._arrays.items())):
@@ -75,11 +74,7 @@ class _Array:
     def pieces(self, steps: int) -> Iterator[Values]:
         """Yield all values of so many steps, in order, flat."""
         if self._file is None:
-            row = self._steady.ravel()
-            together = min(steps, max(1, _PACKED // max(row.size, 1)))
-            block = self._spelled(np.tile(row, together))
-            for first in range(0, steps, together):
-                yield block[: row.size * min(together, steps - first)]
+            yield from repeat(self._spelled(self._steady.ravel()), steps)
             return
         self._file.seek(0)
         while data := self._file.read(_PACKED * self._kept.itemsize):

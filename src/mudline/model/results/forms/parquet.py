@@ -23,18 +23,16 @@ class ParquetWriter:
         self._writers: dict[str, pq.ParquetWriter] = {}
         self._waiting: dict[str, list[pa.Table]] = {table: [] for table in self._streams}
 
-    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+    def write(self, columns: Columns, start: int, count: int, _beside: Mapping[str, Sequence[object]]) -> None:
         """Write some steps. Raises OSError."""
-        del beside
         for table, waiting in self._waiting.items():
             flat = self._contents.timed(table, columns[table], start, count)
             waiting.append(arrow_of(flat, count, {}, self._contents.units, self._contents.format))
             if sum(len(each) for each in waiting) >= GROUP:
                 self._flush(table)
 
-    def finish(self, more: More) -> None:
+    def finish(self, _more: More) -> None:
         """Write the waiting rows; a table cannot hold `more`. Raises OSError."""
-        del more
         for table in self._waiting:
             self._flush(table)
 

@@ -81,12 +81,9 @@ class Spelling:
 
 def blocks(steps: int, rows: int, most: int) -> Iterator[tuple[int, int, slice]]:
     """Yield pieces of steps with at most so many rows: several whole steps, or a part of the rows of one step."""
-    if rows > most:
-        for step in range(steps):
-            yield from ((step, step + 1, slice(start, start + most)) for start in range(0, rows, most))
-        return
     together = max(1, most // max(rows, 1))
-    yield from ((first, min(steps, first + together), slice(None)) for first in range(0, steps, together))
+    for first in range(0, steps, together):
+        yield from ((first, min(steps, first + together), slice(at, at + most)) for at in range(0, rows, most))
 
 
 def _batched(rows: Iterable[T]) -> Iterator[list[T]]:
@@ -107,9 +104,8 @@ class CsvWriter:
     def __init__(self, contents: FileContent, writes: Mapping[str, Write]) -> None:
         self._contents, self._writes = contents, writes
 
-    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+    def write(self, columns: Columns, start: int, count: int, _beside: Mapping[str, Sequence[object]]) -> None:
         """Write some steps; before the first, the names of the columns."""
-        del beside
         for table, write in self._writes.items():
             write(self._pieces(table, columns[table], start, count))
 

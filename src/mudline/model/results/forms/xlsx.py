@@ -64,9 +64,8 @@ class WorkbookWriter:
             sheet.row_data_fh.close()
         self._book.fileclosed = True
 
-    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+    def write(self, columns: Columns, start: int, count: int, _beside: Mapping[str, Sequence[object]]) -> None:
         """Write some steps. Raises OSError."""
-        del beside
         for table, sheet in self._sheets.items():
             flat = self._contents.timed(table, columns[table], start, count)
             if start == 0:
@@ -76,9 +75,8 @@ class WorkbookWriter:
                     sheet.write_row(self._rows[table], 0, row)
                     self._rows[table] += 1
 
-    def finish(self, more: More) -> None:
+    def finish(self, _more: More) -> None:
         """Write the workbook; it cannot hold `more`. Raises OSError."""
-        del more
         try:
             self._book.close()
         except XlsxWriterException as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -13,14 +14,11 @@ from matplotlib.text import Annotation
 from mudline.basics.quantities import ELEMENTS, NODES, SLIDING, STATES, labelled, time_unit, unit_names
 from mudline.model.results.plot_data import Chosen, Extents, PlotData
 from mudline.model.results.plots.style import (
-    COLORS,
-    LIGHT,
     SEABED,
     STATE_STYLES,
     Style,
     draw_line,
     gapped,
-    is_number,
     legend,
     style_of,
     thinned,
@@ -32,12 +30,14 @@ from mudline.model.scene.numbering import Floats, Indices
 
 MOST_LINES = 6
 """Largest number of drawn lines."""
-_BESIDE = 0.15
-"""Part of the stretch in contact that is drawn on both sides of it."""
+_BESIDE, _BESIDE_CHANGES = (0.15, 2.0), (0.5, 3.0)
+"""Part of the stretch in contact, or of that with changes, drawn on both sides of it; at least so many elements."""
 _CHANGE = 0.01
 """Change of the embedment between neighbours where contact changes, as a part of the deepest embedment."""
 _MARKED = 80
 """Largest number of marked slipping nodes of a line."""
+_SOIL = "#e9dfd0"
+"""Colour below the seabed."""
 
 
 class DrawnLine(NamedTuple):
@@ -79,18 +79,15 @@ class DrawnStretch:
         half = 0.5 * data.given.length
         begin, end = lines.element_arc - half, lines.element_arc + half
         self.limits = (float(begin[shown].min()), float(end[shown].max())) if drawn else (0.0, 1.0)
-        if (touching := shown & data.touched).any():
-            low, high = float(begin[touching].min()), float(end[touching].max())
-            beside = max(_BESIDE * (high - low), 2.0 * float(data.given.length[touching].max()))
-            self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
-        changes = np.concatenate([self._changes(line) for line in drawn]) if drawn else np.zeros(0, np.intp)
-        parts = []
-        if changes.size:
-            low, high = float(begin[changes].min()), float(end[changes].max())
-            beside = max(0.5 * (high - low), 3.0 * float(data.given.length[changes].max()))
-            self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
-            sides = (touching & (end <= self.limits[0]), touching & (begin >= self.limits[1]))
-            parts = [f"{begin[side].min():.5g} to {end[side].max():.5g}" for side in sides if side.any()]
+        touching = shown & data.touched
+        changes = np.concatenate([np.zeros(0, np.intp), *map(self._changes, drawn)])
+        for part, share, lengths in ((np.flatnonzero(touching), *_BESIDE), (changes, *_BESIDE_CHANGES)):
+            if part.size:
+                low, high = float(begin[part].min()), float(end[part].max())
+                beside = max(share * (high - low), lengths * float(data.given.length[part].max()))
+                self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
+        sides = (touching & (end <= self.limits[0]), touching & (begin >= self.limits[1])) if changes.size else ()
+        parts = [f"{begin[side].min():.5g} to {end[side].max():.5g}" for side in sides if side.any()]
         where = f"{' and '.join(parts)}{unit_names(data.given.units).behind('length')}"
         self.beyond = f"where contact changes: {where} in contact, not drawn" if parts else ""
         self.lines = []
@@ -98,9 +95,8 @@ class DrawnStretch:
             elements = lines.elements[line][evaluated[lines.elements[line]]]
             arcs, node_arcs = lines.element_arc[elements], lines.node_arcs(line, data.given.length)
             here, near = self._within(arcs), self._within(node_arcs)
-            style = style_of(place) if len(drawn) > 1 else Style(COLORS[0], "-", "o")
             nodes = lines.nodes[line][near]
-            self.lines.append(DrawnLine(line, style, elements[here], arcs[here], nodes, node_arcs[near]))
+            self.lines.append(DrawnLine(line, style_of(place), elements[here], arcs[here], nodes, node_arcs[near]))
 
     def _changes(self, line: int) -> Indices:
         """Return the elements of a line where contact begins or ends, or the embedment changes, at any step."""
@@ -125,7 +121,7 @@ class DrawnStretch:
         """Set the horizontal axis."""
         low, high = self.limits
         beside = 0.01 * (high - low) or 0.5
-        if is_number(low, high):
+        if _is_number(low, high):
             axes.set_xlim(low - beside, high + beside)
         axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
 
@@ -160,7 +156,7 @@ def embedment(axes: Axes, stretch: DrawnStretch) -> None:
     top, bottom = axes.get_ylim()
     if deepest > 0.0:
         top, bottom = min(max(top, -0.6 * deepest), -0.06 * deepest), 1.08 * deepest
-    if is_number(top, bottom):
+    if _is_number(top, bottom):
         axes.set_ylim(bottom, top)
     axes.set_ylabel(ELEMENTS["depth"].axis(data.given.units))
 
@@ -210,6 +206,11 @@ def friction(axes: Axes, stretch: DrawnStretch) -> None:
     legend(axes, note=_step_note(data, chosen))
 
 
+def _is_number(*values: float) -> bool:
+    """Return True if an axis can show these values: very large ones overflow in the transforms of the figure."""
+    return all(math.isfinite(value) and abs(value) < 1e150 for value in values)
+
+
 def _of_elements(axes: Axes, values: Floats, stretch: DrawnStretch, *, mark: bool = True) -> None:
     """Draw values (m,) of the elements over the arc length of their middles."""
     for line in stretch.lines:
@@ -254,7 +255,7 @@ _LABELLED_POINTS = 3
 def line(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
     data, touching = stretch.data, False
-    heights, seabed = data.drawn.heights, data.drawn.seabed
+    heights, seabed = data.drawn.places[:, 0], data.drawn.seabed
     for drawn_line in stretch.lines:
         drawn = thinned(data.drawn.result.gap[drawn_line.nodes])
         arcs, nodes = drawn_line.node_arcs[drawn], drawn_line.nodes[drawn]
@@ -287,15 +288,15 @@ def _crop(axes: Axes, stretch: DrawnStretch) -> None:
     near = nodes[data.drawn.result.gap[nodes] <= most]
     if not 0 < len(near) < len(nodes):
         return
-    drawn = np.concatenate([data.drawn.heights[near], data.drawn.seabed[near]])
+    drawn = np.concatenate([data.drawn.places[near, 0], data.drawn.seabed[near]])
     low, high = float(np.nanmin(drawn)), float(np.nanmax(drawn))
-    if is_number(low, high) and high > low:
+    if _is_number(low, high) and high > low:
         axes.set_ylim(low - 0.05 * (high - low), high)
 
 
 def _thick(axes: Axes, data: PlotData, drawn_line: DrawnLine) -> bool:
     """Draw the elements of a line that touch the seabed over it; return True if there are any."""
-    lines, heights = data.given.lines, data.drawn.heights
+    lines, heights = data.given.lines, data.drawn.places[:, 0]
     here = np.flatnonzero(carried(data.drawn.result)[lines.elements[drawn_line.number]])
     arcs, along = lines.node_arcs(drawn_line.number, data.given.length), heights[lines.nodes[drawn_line.number]]
     here = here[thinned(np.nan_to_num(along[here]))] if here.size else here
@@ -342,8 +343,8 @@ def _soil(axes: Axes, chosen: Chosen, drawn_line: DrawnLine) -> None:
     lowest, highest = axes.get_ylim()
     least = float(np.nanmin(level))
     bottom = min(lowest, least - 0.12 * (highest - least))
-    if is_number(bottom, highest):
-        axes.fill_between(drawn_line.node_arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
+    if _is_number(bottom, highest):
+        axes.fill_between(drawn_line.node_arcs[drawn], level, bottom, color=_SOIL, linewidth=0.0, zorder=0)
         upper = highest - 0.1 * (highest - bottom)
         labelled_above = any(isinstance(text, Annotation) and text.xy[1] > upper for text in axes.texts)
         margin = 0.16 if labelled_above else 0.04  # a label has its place below the legend

@@ -35,6 +35,7 @@ _MARGIN = 0.15
 """Part of its largest ratio by which a curve is drawn beyond its last point."""
 _MARKS = {"values asked for": ("at", "x", 8.0), "static embedment": ("static", "D", 7.0)}
 """Marked points of a curve: their key in a row, marker and size."""
+_OPEN: dict[str, Any] = {"markeredgewidth": 1.5, "markerfacecolor": "none"}
 
 
 @drawing()
@@ -63,7 +64,7 @@ def curves_figure(rows: Iterable[dict[str, Any]], units: str) -> Figure:
             axes.plot([], [], color="0.3", linestyle="--", linewidth=1.0, label="beyond the points")
         for label, (key, shape, size) in _MARKS.items():
             if any(row.get(key) for row in own):
-                axes.plot([], [], shape, **_mark("0.3", size), label=label)
+                axes.plot([], [], shape, color="0.3", markersize=size, label=label, **_OPEN)
         zero_line(axes)
         axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
         title = f"{kind[:1].upper()}{kind[1:]}s"
@@ -75,8 +76,7 @@ def curves_figure(rows: Iterable[dict[str, Any]], units: str) -> Figure:
             title += f" (*{own[0]['keyword']})"
         if kind == OF_CURRENT:
             labels.reverse()
-        axes.set_xlabel(labels[0])
-        axes.set_ylabel(labels[1])
+        axes.set(xlabel=labels[0], ylabel=labels[1])
         finish(axes)
         if kind == OF_CURRENT and own[0]["axes"][0].startswith("depth"):
             axes.invert_yaxis()
@@ -100,7 +100,7 @@ def _curve(axes: Axes, row: dict[str, Any], style: Style) -> None:
     for key, shape, size in _MARKS.values():
         for mark in row.get(key, ()):
             if mark["force"] is not None:
-                axes.plot(*(mark["ratio"], mark["force"])[::upward], shape, **_mark(style.color, size))
+                axes.plot(*(mark["ratio"], mark["force"])[::upward], shape, color=style.color, markersize=size, **_OPEN)
                 marked.append(mark["ratio"])
     far = ratios[-1] * (1.0 + _MARGIN)
     for end, inner, to in ((0, 1, min([0.0, *marked])), (-1, -2, max([far, *marked]))):
@@ -118,13 +118,8 @@ def draw_curve(axes: Axes, name: str, points: FloatArray) -> None:
     """Draw a force-embedment curve of points (n, 2) into axes that may hold others."""
     drawn = axes.get_legend_handles_labels()[1]
     _curve(axes, {"name": name, "kind": OF_SEABED, "points": points}, style_of(len(drawn)))
-    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
-    axes.set_ylabel(ELEMENTS["force"].label.replace("\n", " "))
+    axes.set(xlabel=labelled(ELEMENTS["ratio"].label, "-"), ylabel=ELEMENTS["force"].label.replace("\n", " "))
     legend(axes)
-
-
-def _mark(color: str, size: float) -> dict[str, Any]:
-    return {"color": color, "markersize": size, "markeredgewidth": 1.5, "markerfacecolor": "none"}
 
 
 # ------------------------------------------------------------------------------------------- with evaluated points
@@ -166,8 +161,7 @@ def on_curves(axes: Axes, stretch: DrawnStretch) -> None:
         axes.plot([], [], **style.line, marker=style.marker, markersize=4, label=label)
     if len(used) > _NAMED:
         axes.plot([], [], " ", label=f"and {len(used) - _NAMED} more curves")
-    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
-    axes.set_ylabel(ELEMENTS["force"].axis(data.given.units))
+    axes.set(xlabel=labelled(ELEMENTS["ratio"].label, "-"), ylabel=ELEMENTS["force"].axis(data.given.units))
     legend(axes, note="pale: first steps, dark: last" if data.steps > 1 else "", columns=2)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -36,8 +35,6 @@ _SETTINGS: dict[Any, Any] = {"font.size": 9.0, "svg.hashsalt": "mudline", "pdf.f
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
 """Colours that colour-blind people can distinguish (Okabe and Ito)."""
 SEABED = "#8c6d46"
-LIGHT = "#e9dfd0"
-"""Colour of the soil below the seabed."""
 _MARKERS = "os^DvPX*"
 
 
@@ -168,11 +165,6 @@ def widen(axes: Axes, values: Floats) -> None:
         low, high = float(known.min()), float(known.max())
         margin = 0.5 * max(0.0, least - (high - low))
         axes.set_ylim(low - margin, high + margin)
-
-
-def is_number(*values: float) -> bool:
-    """Return True if an axis can show these values: very large ones overflow in the transforms of the figure."""
-    return all(math.isfinite(value) and abs(value) < 1e150 for value in values)
 
 
 def thinned(values: Floats, most: int = MOST_POINTS) -> Indices:
