@@ -9,7 +9,7 @@ from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Self
+from typing import Self, cast
 
 from pygls.exceptions import JsonRpcException
 
@@ -31,7 +31,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation
 from mudline.model.scene.model import Scene
 from mudline.tools.lsp.documents import OpenDocument
-from mudline.tools.lsp.names import Occurrence, occurrences
+from mudline.tools.lsp.places import Occurrence, occurrences
 
 _REQUEST_FAILED = -32803
 """Code of the protocol for a request that cannot be fulfilled."""
@@ -100,9 +100,14 @@ class Analysis:
         return self
 
     @property
-    def origin(self) -> TextOrigin | None:
-        """Lines and places of a keyword text; None for JSON, YAML and anything but a deck."""
-        return self.context.text if self.context else None
+    def is_text(self) -> bool:
+        """True for keyword text; False for JSON, YAML and anything but a deck."""
+        return isinstance(self.deck.origin, TextOrigin)
+
+    @property
+    def origin(self) -> TextOrigin:
+        """Lines and places of a keyword text."""
+        return cast("TextOrigin", self.deck.origin)
 
     @cached_property
     def scene(self) -> Scene:

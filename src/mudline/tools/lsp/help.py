@@ -28,15 +28,12 @@ from mudline.model.scene.numbering import Floats
 from mudline.model.scene.references import CURVES
 from mudline.model.scene.restart import find_deck
 from mudline.tools.lsp.decks import Analysis, value_text
-from mudline.tools.lsp.names import Occurrence, at, equation_spans
-from mudline.tools.lsp.sites import Site, site, spot
+from mudline.tools.lsp.places import Occurrence, Site, at, equation_spans, site, spot
 
 
 def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     """Return the help on an offset, in Markdown; None if there is none."""
     origin = analysis.origin
-    if origin is None:
-        return None
     here = spot(origin.tree, offset)
     leaf = here.leaf
     if leaf is not None and leaf.span.start <= offset < leaf.span.end:
@@ -46,7 +43,7 @@ def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     named = at(analysis.names, offset)
     if named is not None and named.thing.kind is Names.PARAMETER:
         return _hover(analysis, parameter_help(analysis, named), named.span)
-    value = site(analysis, offset)
+    value = site(analysis.deck, offset)
     return _hover(analysis, "\n\n".join(filter(None, _value_help(analysis, value))), value.span) if value else None
 
 
@@ -315,8 +312,6 @@ def _element(scene: Scene, number: int) -> Iterator[str]:
 def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
     """Return the values of the equations in a range."""
     document = analysis.document
-    if analysis.origin is None:
-        return []
     within = Span(document.offset(range_.start), document.offset(range_.end))
     spans = (span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end)
     values = ((span, analysis.evaluated(Equation(document.text[slice(*span)]))) for span in islice(spans, MOST_HINTS))

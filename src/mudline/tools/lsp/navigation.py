@@ -23,12 +23,11 @@ from mudline.language.syntax.edits import TextEdit, apply_edits
 from mudline.model.scene.deck_values import find_file
 from mudline.model.scene.restart import decks_before, find_deck
 from mudline.model.scene.sets import ALL, LONGEST_NAME
-from mudline.tools.lsp import names
+from mudline.tools.lsp import places
 from mudline.tools.lsp.decks import Analysis, Decks, failed
 from mudline.tools.lsp.documents import OpenDocument, address_of
 from mudline.tools.lsp.help import is_label
-from mudline.tools.lsp.names import WORDS, Occurrence, Thing, occurrences
-from mudline.tools.lsp.sites import Site, site
+from mudline.tools.lsp.places import WORDS, Occurrence, Site, Thing, occurrences, site
 
 # ----------------------------------------------------------------------------------------------------- decks of a chain
 
@@ -74,26 +73,27 @@ class Navigator:
     def __init__(self, decks: Decks, analysis: Analysis) -> None:
         self.decks = decks
         self.analysis = analysis
+        self.at = analysis.document.offset
 
     # --------------------------------------------------------------------------------------------- definition and uses
 
     def definition(self, offset: int) -> list[types.Location]:
         """Return the places where the object at an offset is defined; for the name of a file, the file."""
-        named = names.at(self.analysis.names, offset)
+        named = places.at(self.analysis.names, offset)
         if named is not None:
             return [_location(each.document, use.span) for each, use in self._named(named.thing) if use.defines]
-        value = site(self.analysis, offset)
+        value = site(self.analysis.deck, offset)
         if value is not None and (file := self._file(value.slot.about.names, self.analysis.deck, value.value)):
             return [types.Location(address_of(file), types.Range(types.Position(0, 0), types.Position(0, 0)))]
         return self._numbered(value) if value else []
 
     def references(self, offset: int, *, declaration: bool) -> list[types.Location]:
         """Return every place where the object at an offset is used; with `declaration`, also its definitions."""
-        named = names.at(self.analysis.names, offset)
+        named = places.at(self.analysis.names, offset)
         if named is not None:
             uses = self._named(named.thing)
             return [_location(each.document, use.span) for each, use in uses if declaration or not use.defines]
-        value = site(self.analysis, offset)
+        value = site(self.analysis.deck, offset)
         file = value and self._file(value.slot.about.names, self.analysis.deck, value.value)
         if file is None:
             return []
@@ -152,7 +152,7 @@ class Navigator:
 
     def renamed(self, offset: int) -> Occurrence:
         """Return the name at an offset if it can be changed; raises JsonRpcException."""
-        named = names.at(self.analysis.names, offset)
+        named = places.at(self.analysis.names, offset)
         if named is None:
             raise failed("only sets, curves and parameters can be renamed")
         word = WORDS[named.thing.kind]
@@ -174,7 +174,7 @@ class Navigator:
     def rename(self, offset: int, name: str) -> types.WorkspaceEdit:
         """Return the changes that rename the object at an offset in every deck of a chain; raises JsonRpcException."""
         named = self.renamed(offset)
-        old, new = named.thing, names.thing(named.thing.kind, name)
+        old, new = named.thing, places.thing(named.thing.kind, name)
         self._check(old, new, name)
         edits: dict[int, tuple[Linked, list[TextEdit]]] = {}
         for linked, use in self._named(old):

@@ -1,4 +1,4 @@
-"""Structure of a deck: its outline, folding ranges, and its canonical layout."""
+"""What an editor shows of a deck besides its text: colours, outline and folding ranges; and its canonical layout."""
 
 from __future__ import annotations
 
@@ -7,18 +7,65 @@ from itertools import groupby, islice
 from typing import cast
 
 from lsprotocol import types
+from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, String, _TokenType
 
 from mudline.basics.limits import MOST_OUTLINED
 from mudline.editing.formatting.document import FormatError, formatted
+from mudline.language.deck.forms import form_of
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import DeckError, Span
+from mudline.language.highlighting.lexer import DeckLexer
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.reader import ReadBlock
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.tree import LeafKind, RawBlock, RawSection
 from mudline.tools.lsp.decks import Analysis, failed
+from mudline.tools.lsp.documents import OpenDocument, units_of
+
+# ----------------------------------------------------------------------------------------------------------- colours
+
+_KINDS: dict[_TokenType, types.SemanticTokenTypes] = {
+    Generic.Heading: types.SemanticTokenTypes.Namespace,
+    Keyword: types.SemanticTokenTypes.Keyword,
+    Comment.Single: types.SemanticTokenTypes.Comment,
+    Name.Attribute: types.SemanticTokenTypes.Property,
+    Name.Constant: types.SemanticTokenTypes.EnumMember,
+    Name.Function: types.SemanticTokenTypes.Function,
+    Name.Variable: types.SemanticTokenTypes.Variable,
+    Name.Label: types.SemanticTokenTypes.Variable,
+    Number.Float: types.SemanticTokenTypes.Number,
+    Operator: types.SemanticTokenTypes.Operator,
+    Operator.Word: types.SemanticTokenTypes.Operator,
+    String: types.SemanticTokenTypes.String,
+    String.Double: types.SemanticTokenTypes.String,
+}
+"""Token types that are coloured; unknown sections, keywords and settings stay plain."""
+
+_NAMES = list(dict.fromkeys(kind.value for kind in _KINDS.values()))
+LEGEND = types.SemanticTokensLegend(_NAMES, [])
+
+
+def tokens(document: OpenDocument) -> types.SemanticTokens:
+    """Return the tokens of a deck in keyword text, each relative to the previous token as the protocol counts.
+
+    There are none for JSON and YAML, which editors colour themselves, nor for a text too long to be read at once.
+    """
+    if document.is_long or form_of(document.name) != "keyword":
+        return types.SemanticTokens([])
+    plain = document.text.replace("\r\n", " \n").replace("\r", "\n")  # of the same length
+    data: list[int] = []
+    line = column = 0
+    for at, kind, written in DeckLexer().get_tokens_unprocessed(plain):
+        if kind not in _KINDS:
+            continue
+        place, length = document.position(at), units_of(written)
+        along = place.character - column * (place.line == line)
+        data += [place.line - line, along, length, _NAMES.index(_KINDS[kind].value), 0]
+        line, column = place.line, place.character
+    return types.SemanticTokens(data)
+
 
 # ----------------------------------------------------------------------------------------------------------- outline
 
@@ -26,8 +73,6 @@ from mudline.tools.lsp.decks import Analysis, failed
 def outline(analysis: Analysis) -> list[types.DocumentSymbol]:
     """Return sections, their blocks, and the named records in these: sets, curves, parameters."""
     origin = analysis.origin
-    if origin is None:
-        return []
     symbols: list[types.DocumentSymbol] = []
     for index, section in enumerate(origin.tree.sections):
         if section.head is not None:
@@ -107,8 +152,6 @@ def _name(record: Part) -> str:
 def folding(analysis: Analysis) -> list[types.FoldingRange]:
     """Return the folding ranges: sections, blocks, and comments of more than one line."""
     origin = analysis.origin
-    if origin is None:
-        return []
     spans = [(span, types.FoldingRangeKind.Comment) for span in _comments(origin)]
     for index, section in enumerate(origin.tree.sections):
         if section.head is not None:
