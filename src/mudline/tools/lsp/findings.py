@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from lsprotocol import types
@@ -61,7 +61,7 @@ def _shown(document: OpenDocument, finding: Diagnostic) -> types.Diagnostic:
 
 
 def actions(
-    analysis: Analysis, range_: types.Range, only: Iterable[str] | None, *, resolved: bool
+    analysis: Analysis, range_: types.Range, only: Sequence[str] | None, *, resolved: bool
 ) -> list[types.CodeAction]:
     """Return the fixes for findings in a range, and an action that fixes the whole deck.
 
@@ -69,11 +69,10 @@ def actions(
     of the last action are left to `fix_all`: they take as long as several checks.
     """
     document = analysis.document
-    kinds = list(only) if only is not None else None
     fixes: list[types.CodeAction] = []
-    if _asked(types.CodeActionKind.QuickFix.value, kinds):
+    if _asked(types.CodeActionKind.QuickFix.value, only):
         fixes += _quick_fixes(analysis, Span(document.offset(range_.start), document.offset(range_.end)))
-    if _asked(FIX_ALL, kinds) and any(fix.applicability == "safe" for _, fix in _fixes(analysis)):
+    if _asked(FIX_ALL, only) and any(fix.applicability == "safe" for _, fix in _fixes(analysis)):
         action = types.CodeAction("Fix all findings that have a safe fix", FIX_ALL, data={"uri": document.uri})
         if not resolved:
             action.edit = fix_all(analysis)
@@ -81,7 +80,7 @@ def actions(
     return fixes
 
 
-def _asked(kind: str, kinds: list[str] | None) -> bool:
+def _asked(kind: str, kinds: Sequence[str] | None) -> bool:
     """Return True if a kind of action is requested; kinds have parts with dots, and `a` includes `a.b`."""
     return kinds is None or any(kind == asked or kind.startswith(f"{asked}.") or not asked for asked in kinds)
 

@@ -29,8 +29,6 @@ from mudline.tools.lsp.documents import OpenDocument, address_of
 from mudline.tools.lsp.help import is_label
 from mudline.tools.lsp.places import WORDS, Occurrence, Site, Thing, occurrences, site
 
-# ----------------------------------------------------------------------------------------------------- decks of a chain
-
 
 class Linked(NamedTuple):
     """A deck of a chain with its text as a document, open or not."""
@@ -38,31 +36,6 @@ class Linked(NamedTuple):
     document: OpenDocument
     deck: Deck
 
-
-def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
-    """Return a deck, the decks that it continues, and the open decks that continue it."""
-    linked = [Linked(analysis.document, analysis.deck)]
-    for base in analysis.scene.deck.bases:
-        if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
-            path = base.deck.folder / Path(base.deck.file).name
-            document = decks.at(path) or OpenDocument(address_of(path), base.deck.origin.source.text, 0)
-            linked.append(Linked(document, base.deck))
-    if analysis.document.path is not None:
-        linked += _dependents(decks, analysis.document.path)
-    return linked
-
-
-def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
-    """Yield the open decks that continue a deck."""
-    for uri in list(decks.documents):
-        analysis = decks.analysis(uri)
-        if analysis is not None and analysis.document.path != path:
-            with analysis.reading():
-                if os.path.abspath(path) in map(os.path.abspath, decks_before(analysis.deck)):  # noqa: PTH100 - links stay
-                    yield Linked(analysis.document, analysis.deck)
-
-
-# -------------------------------------------------------------------------------------------------------------- answers
 
 _NOT_IN_NAMES = ',="{}[]%/\r\n'
 
@@ -110,11 +83,27 @@ class Navigator:
         places = self.references(offset, declaration=True)
         return [types.DocumentHighlight(place.range) for place in places if place.uri == self.analysis.document.uri]
 
-    def _linked(self, thing: Thing | None = None) -> list[Linked]:
-        """Return the decks in which an object is the same: a parameter belongs to its deck."""
+    def _linked(self, thing: Thing | None = None) -> Iterator[Linked]:
+        """Yield this deck, the decks that it continues, and the open decks that continue it.
+
+        These are the decks in which an object is the same; a parameter belongs to its deck.
+        """
+        yield Linked(self.analysis.document, self.analysis.deck)
         if thing is not None and thing.kind is Names.PARAMETER:
-            return [Linked(self.analysis.document, self.analysis.deck)]
-        return chain(self.decks, self.analysis)
+            return
+        for base in self.analysis.scene.deck.bases:
+            if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
+                path = base.deck.folder / Path(base.deck.file).name
+                document = self.decks.at(path) or OpenDocument(address_of(path), base.deck.origin.source.text, 0)
+                yield Linked(document, base.deck)
+        own = self.analysis.document.path
+        for uri in list(self.decks.documents) if own is not None else ():
+            other = self.decks.analysis(uri)
+            if own is not None and other is not None and other.document.path != own:
+                with other.reading():
+                    bases = list(map(os.path.abspath, decks_before(other.deck)))
+                if os.path.abspath(own) in bases:  # noqa: PTH100 - links stay
+                    yield Linked(other.document, other.deck)
 
     def _named(self, thing: Thing) -> Iterator[tuple[Linked, Occurrence]]:
         for linked in self._linked(thing):

@@ -74,19 +74,20 @@ def outline(analysis: Analysis) -> list[types.DocumentSymbol]:
     """Return sections, their blocks, and the named records in these: sets, curves, parameters."""
     origin = analysis.origin
     symbols: list[types.DocumentSymbol] = []
-    for index, section in enumerate(origin.tree.sections):
-        if section.head is not None:
-            lines = _extents(section, _end(origin, index))
-            blocks = [_block(analysis, origin, (index, number), raw, stop) for number, (raw, stop) in enumerate(lines)]
-            kind = types.SymbolKind.Module
-            symbols.append(_symbol(analysis, f"${section.name}", kind, section.head.span, _end(origin, index), blocks))
+    for index, section, head, end in _sections(origin):
+        lines = enumerate(_extents(section, end))
+        blocks = [_block(analysis, origin, (index, number), raw, stop) for number, (raw, stop) in lines]
+        symbols.append(_symbol(analysis, f"${section.name}", types.SymbolKind.Module, head, end, blocks))
     return symbols
 
 
-def _end(origin: TextOrigin, index: int) -> int:
-    """Return the end of a section: the start of the next section, or the end of the text."""
-    following = origin.tree.sections[index + 1 : index + 2]
-    return following[0].head.span.start if following and following[0].head else len(origin.source.unified)
+def _sections(origin: TextOrigin) -> Iterator[tuple[int, RawSection, Span, int]]:
+    """Yield number, section, $ line and end of each section; it ends before the next, or with the text."""
+    sections = origin.tree.sections
+    ends = [*(section.head.span.start for section in sections[1:] if section.head), len(origin.source.unified)]
+    for index, (section, end) in enumerate(zip(sections, ends, strict=False)):
+        if section.head is not None:
+            yield index, section, section.head.span, end
 
 
 def _extents(section: RawSection, stop: int) -> Iterator[tuple[RawBlock, int]]:
@@ -153,11 +154,9 @@ def folding(analysis: Analysis) -> list[types.FoldingRange]:
     """Return the folding ranges: sections, blocks, and comments of more than one line."""
     origin = analysis.origin
     spans = [(span, types.FoldingRangeKind.Comment) for span in _comments(origin)]
-    for index, section in enumerate(origin.tree.sections):
-        if section.head is not None:
-            stop = _end(origin, index)
-            blocks = (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
-            spans += [(span, types.FoldingRangeKind.Region) for span in (Span(section.head.span.start, stop), *blocks)]
+    for _, section, head, stop in _sections(origin):
+        blocks = (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
+        spans += [(span, types.FoldingRangeKind.Region) for span in (Span(head.start, stop), *blocks)]
     document, ranges = analysis.document, []
     for span, kind in sorted(spans, key=lambda each: each[1] is types.FoldingRangeKind.Comment):
         body = trimmed(document.text, *span)
