@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -110,10 +110,9 @@ def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
 def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
     """Yield the differences of rows with a {label} in place of a number."""
     first, second = _label_rows(pair.before, keyword, group), _label_rows(pair.after, keyword, group)
-    for key in sorted(first.keys() - second.keys()):
-        yield pair.difference(group, f"{group}/{first[key][0][0]}", first[key], None)
-    for key in sorted(second.keys() - first.keys()):
-        yield pair.difference(group, f"{group}/{second[key][0][0]}", None, second[key])
+    for key in [*sorted(first.keys() - second.keys()), *sorted(second.keys() - first.keys())]:
+        row, _ = first.get(key) or second[key]
+        yield pair.difference(group, f"{group}/{row[0]}", first.get(key), second.get(key))
 
 
 def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tuple[list[Value], Where]]:
@@ -169,15 +168,14 @@ def _points_differ(name: str, old: SceneCurve, new: SceneCurve, pair: Pair) -> I
             return
         if same(first[:, 0], second[:, 0]).all():
             for i in np.flatnonzero(~same(first[:, 1], second[:, 1])).tolist():
-                yield pair.difference(
-                    "curves", f"{name}/{first[i, 0].item()!r}", _force(old, first[i]), _force(new, second[i])
-                )
+                held = _force(old, first[i]), _force(new, second[i])
+                yield pair.difference("curves", f"{name}/{first[i, 0].item()!r}", *held)
             return
     mine, theirs = set(map(tuple, first.tolist())), set(map(tuple, second.tolist()))
-    for point in sorted(mine - theirs):
-        yield pair.difference("curves", f"{name}/{point[0]!r}", _force(old, np.array(point)), None)
-    for point in sorted(theirs - mine):
-        yield pair.difference("curves", f"{name}/{point[0]!r}", None, _force(new, np.array(point)))
+    for point in [*sorted(mine - theirs), *sorted(theirs - mine)]:
+        before = _force(old, np.array(point)) if point in mine else None
+        after = _force(new, np.array(point)) if point in theirs else None
+        yield pair.difference("curves", f"{name}/{point[0]!r}", before, after)
 
 
 def _title(curve: SceneCurve) -> str:
@@ -209,17 +207,12 @@ def _force(curve: SceneCurve, point: Floats) -> tuple[Value, Where]:
 Values = dict[str, object]
 
 
-@dataclass(frozen=True, slots=True)
-class EntryMap:
-    """Entries of one kind, the entry of each element (-1 for none), and their places."""
+class EntryMap(NamedTuple):
+    """Entries of one kind, their places, and the entry of each element (-1 for none)."""
 
     entries: Sequence[Values]
     places: Sequence[Where]
     of_element: Indices
-
-    def entry(self, index: int) -> Values:
-        """Return an entry; no values for -1."""
-        return self.entries[index] if index >= 0 else {}
 
 
 def _by_element(pair: Pair) -> Iterator[Difference]:
@@ -251,20 +244,19 @@ def follow_differently(
     if not len(here):
         return
     first, second = read(before), read(after)
-    width = len(second.entries) + 1
+    entries, others = ([*zip([{}, *each.entries], [None, *each.places], strict=True)] for each in (first, second))
+    width = len(others)
     followed = (first.of_element[here] + 1) * width + second.of_element[there] + 1
     for both in np.unique(followed).tolist():
-        i, j = both // width - 1, both % width - 1
-        places = first.places[i] if i >= 0 else None, second.places[j] if j >= 0 else None
-        if tuple(place and place._replace(path=place.path[:2]) for place in places) in pair.reported:  # the records
+        (old, at), (new, there_at) = entries[both // width], others[both % width]
+        if tuple(place and place._replace(path=place.path[:2]) for place in (at, there_at)) in pair.reported:  # records
             continue
-        old, new = first.entry(i), second.entry(j)
         same = pair.tolerance.values
         names = [name for name in dict.fromkeys([*old, *new]) if not same(old.get(name), new.get(name))]
         if not names:
             continue
         elements = _called(before.scene.element_ids[here[followed == both]], descriptions)
-        lines = before.line(places[0]), after.line(places[1])
+        lines = before.line(at), after.line(there_at)
         for name in names:
             where = f"{elements}/{group}" + (f"/{name}" if name else "")
             values = cast("Value", old.get(name)), cast("Value", new.get(name))

@@ -20,7 +20,6 @@ Spans = NDArray[np.int64]
 NO_SPANS: Spans = np.zeros((0, 2), dtype=np.int64)
 _WORTH_A_RANGE = 5
 """Least number of equally spaced single numbers that are written as a range with a step."""
-_AT_ONCE = 100_000
 
 
 def spans_of(numbers: NDArray[np.int64]) -> Spans:
@@ -59,7 +58,7 @@ def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
 
 
 def _pieces(spans: Spans) -> Iterator[str]:
-    """Yield pieces of the text; spans are joined in large pieces, which takes less memory than a text for each."""
+    """Yield pieces of the text: spans, and runs of equally spaced single numbers."""
     written = 0
     for begin, end in _stepped(spans):
         first = max(begin, written)
@@ -83,9 +82,7 @@ def _stepped(spans: Spans) -> Iterator[tuple[int, int]]:
 
 
 def _listed(spans: Spans) -> Iterator[str]:
-    for start in range(0, len(spans), _AT_ONCE):
-        some = spans[start : start + _AT_ONCE].tolist()
-        yield ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in some)
+    return (str(first) if first == last else f"{first}-{last}" for first, last in spans.tolist())
 
 
 class Members(NamedTuple):

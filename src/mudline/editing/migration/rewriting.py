@@ -6,7 +6,7 @@ import re
 from collections.abc import Container, Iterable, Mapping, Sequence
 from itertools import chain, count
 from pathlib import PurePath
-from typing import NamedTuple, cast
+from typing import cast
 
 import numpy as np
 
@@ -32,18 +32,6 @@ _UNSAFE = re.compile(r"[^\w.-]+")
 _FRICTION = ("longitudinal", "transverse", "longitudinal_mobilisation", "transverse_mobilisation", "constant")
 
 
-class Rewriting(NamedTuple):
-    """Edits of a text, and the content of the files that the new text names, by name."""
-
-    edits: list[TextEdit]
-    files: dict[str, str]
-
-
-def rewrite(deck: Deck, unused: Container[Where]) -> Rewriting:
-    """Return the edits of a deck that was read from text and has no refusals; `unused` definitions are left out."""
-    return _MigrationRewriter(deck, unused).rewrite()
-
-
 def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
     """Return the places of the surface and of the curves that no element follows.
 
@@ -67,7 +55,9 @@ def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
     return unused
 
 
-class _MigrationRewriter:
+class MigrationRewriter:
+    """Rewriting of a deck that was read from text and has no refusals; `unused` definitions are left out."""
+
     def __init__(self, deck: Deck, unused: Container[Where]) -> None:
         self.deck = deck
         self.unused = unused
@@ -76,7 +66,8 @@ class _MigrationRewriter:
         self.edits: list[TextEdit] = []
         self.files: dict[str, str] = {}
 
-    def rewrite(self) -> Rewriting:
+    def rewrite(self) -> tuple[list[TextEdit], dict[str, str]]:
+        """Return the edits of the text, and the content of the files that the new text names, by name."""
         curves: list[tuple[Where, int, str]] = []
         for where, block in self.deck.blocks("EMBEDMENT"):
             given = [(where, i, curve.set_name or "ALL") for i, curve in enumerate(cast("Embedment", block).curves)]
@@ -93,7 +84,7 @@ class _MigrationRewriter:
             self._curve(where, index, name)
         for where, block in surfaces(self.deck):
             self._surface(where, block, list(zip(sets, names, strict=True)))
-        return Rewriting(self.edits, self.files)
+        return self.edits, self.files
 
     def _edit(self, span: Span, text: str) -> None:
         self.edits.append(TextEdit(span, text))

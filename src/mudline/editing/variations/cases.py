@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.outside import without_text
 from mudline.basics.spelling import Effort
 from mudline.editing.variations.names import undefined_parameter, unquoted
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import Parameters, folded, list_items
+from mudline.language.deck.parameters import DEFINING, Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
@@ -28,10 +28,6 @@ from mudline.model.scene.deck_values import find_file, not_found
 if TYPE_CHECKING:
     from mudline.language.keywords.library.preprocessor import Parameters as Block_
     from mudline.language.keywords.library.preprocessor import VariedBlock
-
-
-_PLANNING = "PREPROCESSOR"
-"""Section of the keywords that describe the decks; actions do not add or remove them."""
 
 
 Values = Mapping[str, str]
@@ -132,21 +128,15 @@ def parameter_field(text: str) -> str | None:
 # -------------------------------------------------------------------------------------------------------------- actions
 
 
-@dataclass(frozen=True, slots=True)
-class Removal:
-    """Blocks to leave out, by section and block."""
-
-    blocks: frozenset[tuple[int, int]]
-
-
-@dataclass(frozen=True, slots=True)
-class Addition:
+class Addition(NamedTuple):
     """Lines to add at the end of a section, each with a LF."""
 
     section: int
     text: str
 
 
+Removal = frozenset[tuple[int, int]]
+"""Blocks to leave out, by section and block."""
 Action = Removal | Addition
 
 
@@ -156,18 +146,13 @@ class RefusedError(Exception):
 
 def action_of(deck: Deck, varied: VariedBlock) -> Action:
     """Return the effect of an ACTION= line on a deck that was read from text; raises RefusedError."""
-    keyword = _keyword(varied)
+    keyword = canonical_name("*" + ",".join(unquoted(word) for word in varied.keyword))
+    if DEFINING in (catalogue.sections_of(keyword) or ()):
+        raise RefusedError(f"*{keyword} describes the decks: a variation cannot add or remove it")
     section = _section(deck, varied, keyword)
     if varied.action == "REMOVE":
         return _removal(deck, keyword, section)
     return _addition(deck, varied, keyword, section)
-
-
-def _keyword(varied: VariedBlock) -> str:
-    keyword = canonical_name("*" + ",".join(unquoted(word) for word in varied.keyword))
-    if _PLANNING in (catalogue.sections_of(keyword) or ()):
-        raise RefusedError(f"*{keyword} describes the decks: a variation cannot add or remove it")
-    return keyword
 
 
 def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
@@ -188,11 +173,11 @@ def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
 
 def _removal(deck: Deck, keyword: str, section: str) -> Removal:
     blocks = [(where, block.keyword) for where, name, block in deck.every_block() if name == section]
-    gone = frozenset((where.section, where.block) for where, name in blocks if name == keyword)
+    gone = Removal((where.section, where.block) for where, name in blocks if name == keyword)
     if not gone:
         hint = suggestion(keyword, {name for _, name in blocks})
         raise RefusedError(f"${section} has no *{keyword}{hint} that could be removed")
-    return Removal(gone)
+    return gone
 
 
 def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Addition:

@@ -13,7 +13,7 @@ from typing import cast
 
 from mudline.basics.overwriting import is_read
 from mudline.basics.short_repr import short_repr
-from mudline.editing.variations.cases import Action, ParameterTargets, Removal
+from mudline.editing.variations.cases import Action, Addition, ParameterTargets
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
@@ -189,8 +189,8 @@ class ExpansionPlan:
             if (declared := catalogue.block_class(section.name, block.name)) and declared.facts.plans_decks
         }
         for action in planned.actions:
-            if isinstance(action, Removal):
-                gone |= action.blocks
+            if not isinstance(action, Addition):
+                gone |= action
                 continue
             raw = sections[action.section]  # lines are added after the last line of a section that is not a comment
             head = cast("Leaf", raw.head)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from itertools import product
+from itertools import chain, product
 from math import prod
 from pathlib import PurePath
 from typing import TYPE_CHECKING
@@ -274,15 +274,16 @@ class _Planner:
         taken.take(MANIFEST, -1)
         faults = 0
         for group in groups:
-            for values in _products(group.cases):
+            parameters = [name for cases in group.cases for name in cases.parameters]
+            for rows in product(*(cases.rows for cases in group.cases)):  # the last variation changes fastest
+                values = dict(zip(parameters, chain.from_iterable(rows), strict=True))
                 number = len(decks)
                 path, fault = self._path(group.names, values, f"{number + 1:0{len(str(total))}d}")
                 names = [cases.name for cases in group.cases]
                 actions = [action for cases in group.cases for action in cases.actions]
-                deck = PlannedDeck(path, unquoted(group.combination.description), names, values, actions)
-                decks.append(deck)
+                decks.append(PlannedDeck(path, unquoted(group.combination.description), names, values, actions))
                 if not fault and (holder := taken.take(path, number)) is not None:
-                    fault = _clash(deck, decks[holder] if holder >= 0 else None)
+                    fault = "is that of the manifest" if holder < 0 else _clash(path, decks[holder])
                 if fault:
                     self._report(f"the deck with {listed(values)}: its name {shown(path)} {fault}", group.where)
                     faults += 1
@@ -335,22 +336,13 @@ class _Planner:
                 self._report(f"{what}: line {fault.line}: {fault.message}", Where())
 
 
-def _products(variations: Sequence[Cases]) -> Iterator[dict[str, str]]:
-    """Yield the values of every combination of cases; the last variation changes fastest."""
-    names = [name for cases in variations for name in cases.parameters]
-    for rows in product(*(cases.rows for cases in variations)):
-        yield dict(zip(names, (text for row in rows for text in row), strict=True))
-
-
 def listed(values: Values) -> str:
     """Return values as `Offset=-100, Period=08`."""
     return ", ".join(f"{name}={text}" for name, text in values.items()) or "no varied parameter"
 
 
-def _clash(deck: PlannedDeck, holder: PlannedDeck | None) -> str:
-    if holder is None:
-        return "is that of the manifest"
-    same = "" if deck.path == holder.path else f" (as {shown(holder.path)})"
+def _clash(path: str, holder: PlannedDeck) -> str:
+    same = "" if path == holder.path else f" (as {shown(holder.path)})"
     return f"is that of the deck with {listed(holder.values)}{same}: name what differs with %parameter%"
 
 

@@ -120,12 +120,8 @@ class ElasticSoil:
 
     def _forces(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return force per length of elements (m,) and its derivative to the depth."""
-        rows = self._curves.rows
-        if len(rows) == len(z):
-            force, slope = self._curves.evaluate(z)
-        else:
-            force, slope = np.zeros(len(z)), np.zeros(len(z))
-            force[rows], slope[rows] = self._curves.evaluate(z[rows])
+        rows, force, slope = self._curves.rows, np.zeros(len(z)), np.zeros(len(z))
+        force[rows], slope[rows] = self._curves.evaluate(z[rows])
         if self._cut:
             force, slope = np.where(force > 0.0, force, 0.0), np.where(force > 0.0, slope, 0.0)
         for each in self._others:
