@@ -13,8 +13,7 @@ from mudline.checks.fixing import fix_bytes
 from mudline.checks.pages import page
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.diagnostics import Diagnostic, Fix, Severity, Span
-from mudline.tools.lsp.decks import Analysis
-from mudline.tools.lsp.documents import OpenDocument
+from mudline.tools.lsp.decks import Analysis, OpenDocument
 
 SOURCE = "mudline"
 FIX_ALL = "source.fixAll.mudline"

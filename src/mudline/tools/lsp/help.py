@@ -35,7 +35,7 @@ def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     """Return the help on an offset, in Markdown; None if there is none."""
     origin = analysis.origin
     here = spot(origin.tree, offset)
-    leaf = here.leaf
+    leaf = here.raw.head if here.raw else here.raw_section.head if here.raw_section else None
     if leaf is not None and leaf.span.start <= offset < leaf.span.end:
         section = here.raw_section.name if here.raw_section else ""
         head = section_help(section) if here.raw is None else keyword_help(here.raw.name, section)

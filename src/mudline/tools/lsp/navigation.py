@@ -24,8 +24,7 @@ from mudline.model.scene.deck_values import find_file
 from mudline.model.scene.restart import decks_before, find_deck
 from mudline.model.scene.sets import ALL, LONGEST_NAME
 from mudline.tools.lsp import places
-from mudline.tools.lsp.decks import Analysis, Decks, failed
-from mudline.tools.lsp.documents import OpenDocument, address_of
+from mudline.tools.lsp.decks import Analysis, Decks, OpenDocument, address_of, failed
 from mudline.tools.lsp.help import is_label
 from mudline.tools.lsp.places import WORDS, Occurrence, Site, Thing, occurrences, site
 

@@ -188,13 +188,6 @@ class Spot:
             return None
         return catalogue.block_class(self.raw_section.name, self.raw.name)
 
-    @property
-    def leaf(self) -> Leaf | None:
-        """The line that opens the block, or else the section."""
-        if self.raw is not None:
-            return self.raw.head
-        return self.raw_section.head if self.raw_section else None
-
 
 def spot(tree: SyntaxTree, offset: int) -> Spot:
     """Return the section and block at an offset; a block begins at its first character, and ends before the next."""
@@ -205,13 +198,6 @@ def spot(tree: SyntaxTree, offset: int) -> Spot:
     section = tree.sections[at]
     number = bisect_right([block.head.span.start for block in section.blocks], offset) - 1
     return Spot(at, number, section, section.blocks[number] if number >= 0 else None)
-
-
-def leaf_at(here: Spot, offset: int) -> Leaf | None:
-    """Return the line, or run of lines, of a block at an offset."""
-    leaves = [here.raw.head, *here.raw.leaves] if here.raw else []
-    at = bisect_right([leaf.span.start for leaf in leaves], offset) - 1
-    return leaves[at] if at >= 0 else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,8 +215,11 @@ def site(deck: Deck, offset: int) -> Site | None:
     origin = cast("TextOrigin", deck.origin)
     here = spot(origin.tree, offset)
     read = origin.read.get((here.section, here.block))
-    leaf = leaf_at(here, offset)
-    if read is None or leaf is None or leaf.kind is LeafKind.COMMENT:
+    if read is None or here.raw is None:
+        return None
+    leaves = [here.raw.head, *here.raw.leaves]
+    leaf = leaves[bisect_right([leaf.span.start for leaf in leaves], offset) - 1]  # the line, or run of lines
+    if leaf.kind is LeafKind.COMMENT:
         return None
     block = deck.sections[here.section].blocks[here.block]
     if type(block) is Opaque:

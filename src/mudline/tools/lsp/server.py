@@ -21,8 +21,7 @@ from mudline.basics.limits import LARGEST_OPEN
 from mudline.basics.version import __version__
 from mudline.language.deck.forms import SUFFIXES
 from mudline.tools.lsp import completion, findings, structure
-from mudline.tools.lsp.decks import Analysis, Decks
-from mudline.tools.lsp.documents import OpenDocument, file_of
+from mudline.tools.lsp.decks import Analysis, Decks, OpenDocument, file_of
 from mudline.tools.lsp.help import hints, hover
 from mudline.tools.lsp.navigation import Navigator
 

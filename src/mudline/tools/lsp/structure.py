@@ -21,8 +21,7 @@ from mudline.language.keywords.reader import ReadBlock
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.tree import LeafKind, RawBlock, RawSection
-from mudline.tools.lsp.decks import Analysis, failed
-from mudline.tools.lsp.documents import OpenDocument, units_of
+from mudline.tools.lsp.decks import Analysis, OpenDocument, failed, units_of
 
 # ----------------------------------------------------------------------------------------------------------- colours
 
