@@ -85,8 +85,12 @@ def target_of(path: FieldPath, operand: WrittenOperand | None) -> FieldTarget:
     an operand, fields of several values are chosen.
     """
     blocks = catalogue.declarations(path.keyword)
+    if not blocks and catalogue.sections_of(path.keyword) is not None:
+        raise PathError(f"the lines of *{path.keyword} are passed through unchanged: no value in them can be named")
     if not blocks:
-        raise PathError(_unknown_keyword(path.keyword))
+        near = catalogue.suggest_keyword(path.keyword)
+        hint = f": did you mean {near}?" if near else ": see docs/keywords.md"
+        raise PathError(f"*{path.keyword} is not a known keyword{hint}")
     known = [field for block in blocks for field in declared_fields(block) if field.whole is (operand is None)]
     named = [field for field in known if _ends_with(field, path.names)]
     if not named:
@@ -150,13 +154,6 @@ def _ends_with(field: DeclaredField, names: Sequence[str]) -> bool:
         return False
     between = field.names[len(field.names) - len(names) : -1]
     return all(folded_name(own) == name for own, name in zip(between, before, strict=True))
-
-
-def _unknown_keyword(keyword: str) -> str:
-    if catalogue.sections_of(keyword) is not None:
-        return f"the lines of *{keyword} are passed through unchanged: no value in them can be named"
-    near = catalogue.suggest_keyword(keyword)
-    return f"*{keyword} is not a known keyword" + (f": did you mean {near}?" if near else ": see docs/keywords.md")
 
 
 def _unknown_field(path: FieldPath, known: Sequence[DeclaredField]) -> str:

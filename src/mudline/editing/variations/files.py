@@ -274,11 +274,7 @@ def _conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> Iterator
                 yield f"{path.as_posix()}: this run reads the file, which is not overwritten"
             elif not force:
                 yield f"{path.as_posix()}: exists already: --force overwrites it"
-        elif (file := _file_above(folder, path)) is not None:
-            yield f"{path.as_posix()}: {file.as_posix()} is a file, not a folder"
-
-
-def _file_above(folder: Path, path: Path) -> Path | None:
-    """Return a file where a folder is needed, or None."""
-    above = (parent for parent in path.parents if parent != folder and folder in parent.parents)
-    return next((parent for parent in above if parent.exists() and not parent.is_dir()), None)
+        else:
+            above = (parent for parent in path.parents if parent != folder and folder in parent.parents)
+            for file in (parent for parent in above if parent.exists() and not parent.is_dir()):
+                yield f"{path.as_posix()}: {file.as_posix()} is a file, not a folder"

@@ -67,11 +67,6 @@ class _CaseGroup:
     names: Sequence[str | None]
     cases: Sequence[Cases]
 
-    @property
-    def count(self) -> int:
-        """Number of decks."""
-        return prod(len(cases.rows) for cases in self.cases)
-
 
 def plan(deck: Deck) -> ExpansionPlan:
     """Plan the decks that a deck describes.
@@ -106,7 +101,7 @@ class _Planner:
         self.problems = [*self.targets.parameters.problems, *self.problems]
         groups = [group for group in self._groups(variations) if self._is_valid(group)]
         self._raise_any()
-        total = sum(group.count for group in groups)
+        total = sum(prod(len(cases.rows) for cases in group.cases) for group in groups)
         if total > MOST_DECKS:
             self._report(f"{total} decks would be written: expected no more than {MOST_DECKS}", groups[-1].where)
         if not groups:
@@ -159,7 +154,14 @@ class _Planner:
                 self._report(f"{shown(target.name)} varies twice in {shown(name)}: keep one of its lines", place)
                 continue
             columns[target.name] = self._values(varied, target, place)
-        self._check_counts(name, columns, where)
+        counts = {len(values) for values in columns.values() if values}
+        if len(counts) > 1:  # all parameters of a variation change together
+            listed = ", ".join(f"PARA={target} has {len(values)}" for target, values in columns.items() if values)
+            message = (
+                f"the parameters of variation {shown(name)} change together and need equally many values: {listed}. "
+                "Put those that vary independently into separate variations"
+            )
+            self._report(message, where)
         rows = list(zip(*columns.values(), strict=False)) if columns else [()]
         actions = list[Action]()
         for at, varied_block in enumerate(variation.blocks):
@@ -168,17 +170,6 @@ class _Planner:
             except RefusedError as reason:
                 self._report(str(reason), where.inside("blocks", at))
         return Cases(name, list(columns), rows, actions)
-
-    def _check_counts(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
-        """Report a problem unless all parameters of a variation, which change together, have equally many values."""
-        counts = {len(values) for values in columns.values() if values}
-        if len(counts) > 1:
-            listed = ", ".join(f"PARA={target} has {len(values)}" for target, values in columns.items() if values)
-            message = (
-                f"the parameters of variation {shown(name)} change together and need equally many values: {listed}. "
-                "Put those that vary independently into separate variations"
-            )
-            self._report(message, where)
 
     def _values(self, varied: VariedParameter, target: ParameterTarget, where: Where) -> list[str]:
         """Return the values as fields of `*PARAMETERS`; an empty list if they are faulty."""

@@ -140,16 +140,12 @@ class LineModel:
     seabed: Seabed | None
     units: SiFactors
 
-    def mudline(self, x: Floats, y: Floats) -> Floats:
-        """Return the elevation z of the seabed; NaN where there is none."""
+    def levels(self, x: Floats, y: Floats) -> Floats:
+        """Return the elevation z of an unbounded seabed: outside the deck's seabed, its lowest known elevation."""
         if self.seabed is None:
             return np.full(np.shape(x), -self.depth)
         size = self.units.length
-        return self.seabed.elevation(np.asarray(x) / size, np.asarray(y) / size) * size - self.depth
-
-    def levels(self, x: Floats, y: Floats) -> Floats:
-        """Return the elevation of an unbounded seabed: outside the deck's seabed, its lowest known elevation."""
-        level = self.mudline(x, y)
+        level = self.seabed.elevation(x / size, y / size) * size - self.depth
         known = level[~np.isnan(level)]
         return np.where(np.isnan(level), known.min() if known.size else -self.depth, level)
 
