@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import islice
 from types import MappingProxyType
@@ -61,8 +60,7 @@ class DeclaredField(NamedTuple):
         return self.slot.kind in (Kind.NAME, Kind.TITLE, Kind.REAL_OR_NAME)
 
 
-@dataclass(frozen=True, slots=True)
-class FieldTarget:
+class FieldTarget(NamedTuple):
     """A keyword and its fields that a path names, as far as they accept the value to be set or compared."""
 
     path: FieldPath

@@ -122,8 +122,7 @@ class Columns:
         return [column.shape() for column in self.columns]
 
 
-@dataclass(slots=True)
-class WordRows:
+class WordRows(NamedTuple):
     """Rows as lists of fields."""
 
     rows: list[list[str]]

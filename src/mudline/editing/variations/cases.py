@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, cast
 
@@ -34,8 +34,7 @@ Values = Mapping[str, str]
 """Values as written in `*PARAMETERS`, by the name of the parameter there."""
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterTarget:
+class ParameterTarget(NamedTuple):
     """A parameter: its name and the text of its value, both as written, and the place of the value."""
 
     name: str

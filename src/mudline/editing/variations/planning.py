@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from decimal import Decimal
 from itertools import chain, product
 from math import prod
 from pathlib import PurePath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
@@ -45,8 +45,7 @@ MOST_LOOKED_AT = 1000
 """Number of decks whose names are checked if none is to be written."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cases:
+class Cases(NamedTuple):
     """A variation: names of parameters, a row of their values for each case, and the actions in every case."""
 
     name: str
@@ -55,8 +54,7 @@ class Cases:
     actions: Sequence[Action]
 
 
-@dataclass(frozen=True, slots=True)
-class _CaseGroup:
+class _CaseGroup(NamedTuple):
     """A combination with its variations: a deck for each combination of their cases.
 
     `names` are those that it gives its decks: folder, folder below it, file; None for a name that it does not give.

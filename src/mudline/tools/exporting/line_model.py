@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import astuple, dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -42,8 +41,7 @@ _DRAG, _ADDED = 1.2, 1.0
 _UNITS = {"metric": SiFactors(1.0, 1.0), "imperial": SiFactors(FOOT, POUND)}
 
 
-@dataclass(frozen=True, slots=True)
-class End:
+class End(NamedTuple):
     """End of lines: a node that is `held` (degrees of freedom of the deck), moved by a `vessel`, or joins lines."""
 
     node: int
@@ -56,8 +54,7 @@ class End:
         return not self.held & TRANSLATIONS
 
 
-@dataclass(frozen=True, slots=True)
-class PipeSection:
+class PipeSection(NamedTuple):
     """A cross-section with its contents and coefficients, in SI units.
 
     `diameter` is that of contact, `buoyancy` that of the displaced water. `mass` includes the `contents`. Coefficients
@@ -81,8 +78,7 @@ class PipeSection:
     assumed: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LineStretch:
+class LineStretch(NamedTuple):
     """Consecutive elements with one section and one seabed: indices of k + 1 nodes in the model, and k lengths."""
 
     section: int
@@ -96,8 +92,7 @@ class LineStretch:
         return bool(np.ptp(self.lengths) <= _ALIKE * self.lengths.max())
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ExportLine:
+class ExportLine(NamedTuple):
     """A line from one end to the other; `begin` and `end` are indices of the model's ends."""
 
     name: str
@@ -118,8 +113,7 @@ class ExportLine:
         return joined
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LineModel:
+class LineModel(NamedTuple):
     """Lines of a deck; `places` (n, 3) are those of all its nodes, `depth` is the water depth at X = 0.
 
     `soil` is that of most of the pipe around touchdown, for targets with one seabed.
@@ -180,7 +174,7 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     seabed = None if scene.seabed.kind is SeabedKind.FLAT else made_seabed(scene.seabed)
     density = around.density * units.mass / units.length**3
     si = (depth * units.length, density, around.gravity * units.length)
-    values = [value for each in (*map(astuple, sections), *soils) for value in each if isinstance(value, float)]
+    values = [value for each in (*sections, *soils) for value in each if isinstance(value, float)]
     if not np.isfinite([*values, *si, *places[scene.element_nodes].ravel()]).all():
         raise scene.refusal("a number of the lines is not finite in SI units: correct the largest of the deck")
     for keyword, target in (

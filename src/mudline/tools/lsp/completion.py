@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import islice
+from typing import NamedTuple
 
 from lsprotocol import types
 
@@ -31,8 +31,7 @@ _FIELD = re.compile(r'[^,{}="\[\]]+')
 _ESCAPED = re.compile(r"([$}\\])")
 
 
-@dataclass(frozen=True, slots=True)
-class _Cursor:
+class _Cursor(NamedTuple):
     """Place of a completion, with the text before it on its line, and its block."""
 
     analysis: Analysis

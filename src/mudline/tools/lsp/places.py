@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import NamedTuple, cast
 
 from mudline.language.deck.model import Deck, Opaque
@@ -167,8 +166,7 @@ def _placeholders(origin: TextOrigin) -> Iterator[Occurrence]:
 # ------------------------------------------------------------------------------------------------- place of an offset
 
 
-@dataclass(frozen=True, slots=True)
-class Spot:
+class Spot(NamedTuple):
     """Section and block in whose lines an offset lies, with their numbers; -1 and None outside any section or block."""
 
     section: int = -1
@@ -200,8 +198,7 @@ def spot(tree: SyntaxTree, offset: int) -> Spot:
     return Spot(at, number, section, section.blocks[number] if number >= 0 else None)
 
 
-@dataclass(frozen=True, slots=True)
-class Site:
+class Site(NamedTuple):
     """A value of a deck: its place, its field, and the value as read (None if it could not be read)."""
 
     where: Where
