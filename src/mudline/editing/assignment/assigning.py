@@ -12,7 +12,6 @@ import numpy as np
 from mudline.basics.arguments import ArgumentKindError
 from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
-from mudline.basics.spelling import nearest
 from mudline.editing.assignment.fields import FieldTarget, FieldValue, blocks_of, target_of, values_of
 from mudline.editing.assignment.paths import Assignment, WrittenOperand, parse_path
 from mudline.language.codes.fields import SYN003
@@ -23,6 +22,7 @@ from mudline.language.diagnostics import Diagnostic, Problem, Severity, Where
 from mudline.language.keywords.contents import range_fault
 from mudline.language.keywords.model import Part, record_schema
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.text import suggestion
 from mudline.language.keywords.values import Equation, Kind
 from mudline.language.syntax.edits import TextEdit, edited_bytes
 from mudline.language.syntax.layout import replacement_in_layout
@@ -69,8 +69,7 @@ def assigned(deck: Deck, assignment: Assignment, target: FieldTarget, units: str
         if next(values_of(deck, target), None) is None:
             return None
         expected = " or ".join(dict.fromkeys(_kinds(target)))
-        near = nearest(assignment.value, {choice for field in target.fields for choice in field.slot.choices})
-        hint = f" (did you mean {near}?)" if near else ""
+        hint = suggestion(assignment.value, {choice for field in target.fields for choice in field.slot.choices})
         raise AssignmentError(f"{target.path} cannot be {assignment.value!r}: expected {expected}{hint}")
     current = _the_one(deck, target)
     if current is None:

@@ -17,6 +17,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.contact.laws.soil import initial, lift
 from mudline.model.scene.assignments import nodal_stiffness, soil_parameters
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
+from mudline.model.scene.laws import Extension, SeabedResistance
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
 from mudline.model.scene.weights import pipe_of
@@ -148,18 +149,17 @@ def _soil(
         stiffness, tangent = _of_soil(parameters, weight, diameter)
     else:
         stiffness, tangent = _stiffness(scene, arrays, at, kind, weight)
-    where = None if (law := scene.set_law(at)) is None else law.where
-    for keyword in ("SEABED SOIL",) if kind is LawKind.SOIL else ("SEABED CONTACT",) if kind is LawKind.NODAL else ():
-        where = scene.extensions[keyword].places[int(scene.extensions[keyword].of_element[at])]
-    own = int(scene.resistance.of_element[at])
-    friction_at = scene.resistance.places[own] if own >= 0 else None
-    extension = scene.extensions.get("SEABED FRICTION")
-    if extension is not None and extension.of_element[at] >= 0:
-        friction_at = extension.places[int(extension.of_element[at])]
+
+    def place_in(table: Extension | SeabedResistance | None) -> Where | None:
+        own = -1 if table is None else int(table.of_element[at])
+        return None if table is None or own < 0 else table.places[own]
+
+    extension = {LawKind.SOIL: "SEABED SOIL", LawKind.NODAL: "SEABED CONTACT"}.get(kind, "")
+    law = scene.set_law(at)
     return ExportSoil(
         scene.law_names[at],
         kind,
-        where,
+        place_in(scene.extensions.get(extension)) or (law.where if law else None),
         diameter * units.length,
         weight * units.force / units.length,
         stiffness * units.stiffness,
@@ -169,7 +169,7 @@ def _soil(
         friction[1],
         friction[2] * units.stiffness,
         friction[3] * units.stiffness,
-        friction_at,
+        place_in(scene.extensions.get("SEABED FRICTION")) or place_in(scene.resistance),
         tuple(parameters.items()),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import sys
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from copy import copy
 from pathlib import Path
@@ -130,7 +130,7 @@ class DeckServer(LanguageServer):
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
         self._touch(document)
 
-    def files_changed(self, changes: list[types.FileEvent]) -> None:
+    def files_changed(self, changes: Sequence[types.FileEvent]) -> None:
         """Check the decks again that depend on files changed by other programs."""
         paths = [path for change in changes if (path := file_of(change.uri)) is not None]
         if any(path.suffix == CONFIGURATION for path in paths):
@@ -270,11 +270,16 @@ _OPTIONS = {types.TEXT_DOCUMENT_RENAME: types.RenameOptions(prepare_provider=Tru
 
 def register(server: DeckServer) -> None:
     """Register every request that is answered."""
-    _watch(server)
+    server.feature(types.INITIALIZED)(lambda _: server.watch_files())
+    server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)(lambda told: server.files_changed(told.changes))
     _fixes(server)
     _completion(server)
     for method, (ask, nothing) in _ANSWERS.items():
         _answer(server, method, ask, nothing)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
+    def saved(params: types.DidSaveTextDocumentParams) -> None:
+        server.files_changed([types.FileEvent(params.text_document.uri, types.FileChangeType.Changed)])
 
     @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, structure.LEGEND)
     async def semantic_tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
@@ -289,20 +294,6 @@ def _answer(server: DeckServer, method: str, ask: Ask, nothing: object) -> None:
         if analysis is None or not (analysis.is_text or method == types.TEXT_DOCUMENT_FORMATTING):
             return nothing
         return ask(Navigator(server.decks, analysis), params)
-
-
-def _watch(server: DeckServer) -> None:
-    @server.feature(types.INITIALIZED)
-    def ready(_: types.InitializedParams) -> None:
-        server.watch_files()
-
-    @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
-    def watched(params: types.DidChangeWatchedFilesParams) -> None:
-        server.files_changed(list(params.changes))
-
-    @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
-    def saved(params: types.DidSaveTextDocumentParams) -> None:
-        server.files_changed([types.FileEvent(params.text_document.uri, types.FileChangeType.Changed)])
 
 
 def _fixes(server: DeckServer) -> None:
