@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
 from lsprotocol import types
 
 from mudline.checks.context import read_deck
@@ -20,12 +19,11 @@ from mudline.language.expression.parsing import parse
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, apply_edits
-from mudline.model.scene.deck_values import find_file
-from mudline.model.scene.restart import decks_before, find_deck
+from mudline.model.scene.restart import decks_before
 from mudline.model.scene.sets import ALL, LONGEST_NAME
 from mudline.tools.lsp import places
 from mudline.tools.lsp.decks import Analysis, Decks, OpenDocument, address_of, failed
-from mudline.tools.lsp.help import is_label
+from mudline.tools.lsp.help import file_named, index_of
 from mudline.tools.lsp.places import WORDS, Occurrence, Site, Thing, occurrences, site
 
 
@@ -55,7 +53,7 @@ class Navigator:
         if named is not None:
             return [_location(each.document, use.span) for each, use in self._named(named.thing) if use.defines]
         value = site(self.analysis.deck, offset)
-        if value is not None and (file := self._file(value.slot.about.names, self.analysis.deck, value.value)):
+        if value is not None and (file := file_named(value.slot.about.names, self.analysis.deck, value.value)):
             return [types.Location(address_of(file), types.Range(types.Position(0, 0), types.Position(0, 0)))]
         return self._numbered(value) if value else []
 
@@ -66,14 +64,14 @@ class Navigator:
             uses = self._named(named.thing)
             return [_location(each.document, use.span) for each, use in uses if declaration or not use.defines]
         value = site(self.analysis.deck, offset)
-        file = value and self._file(value.slot.about.names, self.analysis.deck, value.value)
+        file = value and file_named(value.slot.about.names, self.analysis.deck, value.value)
         if file is None:
             return []
         return [
             _location(document, span)
             for document, deck in self._linked()
             for kind, role, name, where in deck.names()
-            if role == "names" and self._file(kind, deck, name) == file
+            if role == "names" and file_named(kind, deck, name) == file
             if isinstance(deck.origin, TextOrigin) and (span := deck.origin.span(where))
         ]
 
@@ -114,27 +112,16 @@ class Navigator:
     def _numbered(self, value: Site) -> list[types.Location]:
         """Return the definition of the node or element whose number stands in a field."""
         scene, kind = self.analysis.scene, value.slot.about.names or value.slot.about.defines
-        if kind not in (Names.NODE, Names.ELEMENT) or not is_label(value.value):
+        index = index_of(scene, kind, value.value) if kind in (Names.NODE, Names.ELEMENT) else None
+        if index is None or index < 0:
             return []
-        table = scene.nodes if kind is Names.NODE else scene.table.numbered
-        index = int(table.indices(np.array([value.value], dtype=np.int64))[0])
-        if index < 0:
-            return []
-        where = table.where(index)
+        where = (scene.nodes if kind is Names.NODE else scene.table.numbered).where(index)
         deck, where = scene.deck.base_of(where) or (self.analysis.deck, where)
         document = next((linked.document for linked in self._linked() if linked.deck is deck), None)
         if document is None or not isinstance(deck.origin, TextOrigin):
             return []
         span = deck.origin.span(where.inside(0)) or deck.origin.span(where)
         return [_location(document, span)] if span else []
-
-    def _file(self, kind: Names | None, deck: Deck, name: object) -> Path | None:
-        """Return the existing file that a name of a kind in a deck stands for, or None."""
-        if not isinstance(name, str):
-            return None
-        if kind is Names.DECK:
-            return find_deck(deck, name)
-        return find_file(deck.folder, name) if kind is Names.FILE else None
 
     # ------------------------------------------------------------------------------------------------------ new names
 

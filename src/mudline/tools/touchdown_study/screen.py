@@ -198,8 +198,8 @@ def sentences(result: Study, part: str) -> list[str]:
     """Return the sentences below the tables of a part."""
     remarks = list(result.notes.get(part, ()))
     if part == "accuracy" and result.zone is not None:
-        remarks = [*remarks, *result.zone.notes, LIMITS]
-    return [*remarks, *stability_sentences(result)] if part == "stability" else remarks
+        remarks += [*result.zone.notes, LIMITS]
+    return remarks + stability_sentences(result) if part == "stability" else remarks
 
 
 TABLES = {"accuracy": steps_table, "stability": extremes_table, "pruning": stages_table}
