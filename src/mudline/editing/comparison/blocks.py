@@ -37,13 +37,13 @@ def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
     return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
 
 
-def record_values(side: Side, record: Record, where: Where) -> Flat:
-    """Return the values of one record of an element, without the name of the record."""
+def record_values(side: Side, record: Record, where: Where) -> dict[str, object]:
+    """Return the values of one record of an element by path, without the name of the record."""
     flattening = _Flattening(side, later_wins=True)
     key = key_slot(type(record))
     values: Flat = {}
     flattening.part(record, where, "", values, leave_out=key.name if key else "")
-    return values
+    return {path: entry.shown for path, entry in values.items()}
 
 
 def key_slot(record: type[Record]) -> FieldSpec | None:

@@ -15,7 +15,6 @@ from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, 
 from mudline.editing.comparison.sets import set_differences, spans_of, text_of
 from mudline.language.deck.parameters import Definition, folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.model import Record
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Label
 from mudline.model.contact.input import LawKind
@@ -282,17 +281,13 @@ def _law(scene: Scene, grant: SetLaw) -> Values:
     return {} if grant.kind is LawKind.NONE else {"": scene.law_name(grant)}
 
 
-def _record(side: Side, record: Record, where: Where) -> Values:
-    return {path: entry.shown for path, entry in record_values(side, record, where).items()}
-
-
 def _sections(side: Side) -> EntryMap:
     table = side.scene.section_table
     places = [section.where for section in table.sections]
     entries = []
     for where in places:
         block = cast("Any", side.scene.deck.sections[where.section].blocks[where.block])
-        values = _record(side, block.sets[where.path[1]], where)
+        values = record_values(side, block.sets[where.path[1]], where)
         values.pop("option", None)  # the property line has the name of its format
         if block.keyword == "TAPER":
             start = np.flatnonzero(table.of_element == places.index(where))
@@ -321,5 +316,5 @@ def _extension(side: Side, keyword: str) -> EntryMap:
     extension = side.scene.extensions.get(keyword)
     if extension is None:
         return EntryMap([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
-    pairs = zip(extension.entries, extension.places, strict=True)
-    return EntryMap([_record(side, entry, place) for entry, place in pairs], extension.places, extension.of_element)
+    entries = [record_values(side, *pair) for pair in zip(extension.entries, extension.places, strict=True)]
+    return EntryMap(entries, extension.places, extension.of_element)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -89,14 +89,10 @@ class Members(NamedTuple):
     """Members of a set: spans of their numbers, and names of members without a number."""
 
     spans: Spans
-    words: Collection[str] = ()
+    words: frozenset[str] = frozenset()
 
     def __str__(self) -> str:
         return ", ".join(filter(None, [text_of(self.spans), *sorted(self.words)]))
-
-    def same(self, other: Members) -> bool:
-        """Return True if another set has the same members."""
-        return set(self.words) == set(other.words) and np.array_equal(self.spans, other.spans)
 
 
 _SetLine = SetList | SetGenerate | SetSubset
@@ -117,7 +113,8 @@ def set_differences(pair: Pair) -> Iterator[Difference]:
             if lines == other_lines:  # may be ranges of very many numbers
                 continue
             before, after = _members(lines), _members(other_lines)
-        if before is None or after is None or not before.same(after):
+        same = before and after and before.words == after.words and np.array_equal(before.spans, after.spans)
+        if not same:
             title = old.name if old else new.name if new else name
             sides = (before, old), (after, new)
             held = ((str(members), group.where) if members and group else None for members, group in sides)
@@ -148,4 +145,4 @@ def _members(lines: Sequence[_SetLine]) -> Members:
                 step = 1 if step is None else step
                 if isinstance(start, int) and isinstance(end, int) and isinstance(step, int) and step >= 1:
                     spans.append(spans_of_run(start, min(end, start + MOST_GENERATED * step), step))
-    return Members(union(spans), words)
+    return Members(union(spans), frozenset(words))

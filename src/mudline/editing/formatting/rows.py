@@ -117,10 +117,6 @@ class Columns:
             self.columns.append(ColumnWidths(self.kind.is_text(number)))
         return self.columns
 
-    def shapes(self) -> list[ColumnShape]:
-        """Return the shape of each column."""
-        return [column.shape() for column in self.columns]
-
 
 class WordRows(NamedTuple):
     """Rows as lists of fields."""
@@ -276,7 +272,7 @@ class AlignedRows:
         for member in self.members:
             for part in self._parts(*member):
                 part.measure(columns)
-        shapes = columns.shapes()
+        shapes = [column.shape() for column in columns.columns]
         for member in self.members:
             yield member[0], "".join(part.lines(shapes) for part in self._parts(*member))
 

@@ -149,9 +149,14 @@ def action_of(deck: Deck, varied: VariedBlock) -> Action:
     if DEFINING in (catalogue.sections_of(keyword) or ()):
         raise RefusedError(f"*{keyword} describes the decks: a variation cannot add or remove it")
     section = _section(deck, varied, keyword)
-    if varied.action == "REMOVE":
-        return _removal(deck, keyword, section)
-    return _addition(deck, varied, keyword, section)
+    if varied.action != "REMOVE":
+        return _addition(deck, varied, keyword, section)
+    blocks = [(where, block.keyword) for where, name, block in deck.every_block() if name == section]
+    gone = Removal((where.section, where.block) for where, name in blocks if name == keyword)
+    if not gone:
+        hint = suggestion(keyword, {name for _, name in blocks})
+        raise RefusedError(f"${section} has no *{keyword}{hint} that could be removed")
+    return gone
 
 
 def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
@@ -168,15 +173,6 @@ def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
     if name not in there:
         raise RefusedError(f"the deck has no section ${name}{suggestion(name, there)} for *{keyword}")
     return name
-
-
-def _removal(deck: Deck, keyword: str, section: str) -> Removal:
-    blocks = [(where, block.keyword) for where, name, block in deck.every_block() if name == section]
-    gone = Removal((where.section, where.block) for where, name in blocks if name == keyword)
-    if not gone:
-        hint = suggestion(keyword, {name for _, name in blocks})
-        raise RefusedError(f"${section} has no *{keyword}{hint} that could be removed")
-    return gone
 
 
 def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Addition:

@@ -139,16 +139,14 @@ def _line_type(model: LineModel, key: Key, name: str) -> Items:
 def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
     line, parts = model.lines[at], pieces(model)[at]
     ends = [_end(model, line.begin, parts[0]), _end(model, line.end, parts[-1])]
-    nodes = [model.ends[index].node for index in (line.begin, line.end)]
-    ids = [int(model.scene.node_ids[node]) for node in nodes]
-    where = [model.scene.line_of(model.scene.nodes.where(node)) for node in nodes]
-    held = [model.ends[index].held for index in (line.begin, line.end)]
+    both, scene = (model.ends[line.begin], model.ends[line.end]), model.scene
+    nodes = (f"node {scene.node_ids[end.node]}, line {scene.line_of(scene.nodes.where(end.node))}" for end in both)
     sections = [[names[_key(model, each)], float(each.lengths.sum()), float(each.lengths.min())] for each in parts]
     return {
         "Name": line.name,
-        "#": f"from node {ids[0]}, line {where[0]}, to node {ids[1]}, line {where[1]}",
+        "#": f"from {', to '.join(nodes)}",
         _CONNECTION: ends,
-        _BENDING: [["Infinity" if freedoms & {5, 6} else 0.0, None] for freedoms in held],
+        _BENDING: [["Infinity" if end.held & {5, 6} else 0.0, None] for end in both],
         _SECTIONS: sections,
         "IncludedInStatics": "Yes",
     }
