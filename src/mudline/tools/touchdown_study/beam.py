@@ -94,8 +94,7 @@ class Beam:
         """Return matrices for w and theta from those for w and l theta."""
         size = np.ones((len(self.lengths), 4))
         size[:, 1::2] = self.lengths[:, None]
-        scaled: FloatArray = matrices * size[:, :, None] * size[:, None, :]
-        return scaled
+        return matrices * size[:, :, None] * size[:, None, :]
 
     @cached_property
     def load(self) -> FloatArray:
@@ -130,8 +129,7 @@ class Beam:
 
     def moments(self, turned: FloatArray) -> FloatArray:
         """Return bending moments (..., m) of the elements from the rotations (..., n) of the nodes."""
-        moments: FloatArray = self.bending * np.diff(turned, axis=-1) / self.lengths
-        return moments
+        return self.bending * np.diff(turned, axis=-1) / self.lengths
 
     def touchdown(self, heights: FloatArray) -> FloatArray:
         """Return touchdown points (...), from the left end: the first change of sign of w (..., n) from the right."""
