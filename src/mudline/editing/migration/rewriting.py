@@ -181,7 +181,10 @@ class MigrationRewriter:
             value = self.text[slice(*rows[1])].strip(" \t,")
             self._row(rows[1], f"TYPE=SLOPING\n{indent}SLOPE={value}")
             return
-        name = self._file_name()
+        stem = _UNSAFE.sub("-", PurePath(self.deck.source).stem).strip("-.") or "deck"
+        name, number = f"{stem}-profile.txt", 2
+        while self.deck.folder is not None and (self.deck.folder / name).exists():
+            name, number = f"{stem}-profile-{number}.txt", number + 1
         self._row(rows[1], f"TYPE=2D\n{indent}INTERPOLATION=LINEAR\n{indent}FILE={name}")
         for row in rows[2:]:
             end = self.text.find("\n", row.end)
@@ -190,14 +193,6 @@ class MigrationRewriter:
         lines = [f"{y!r}, {elevation!r}\n".upper() for y, elevation in points]
         head = f"C Y, elevation: profile of *{block.keyword} of {self.deck.source}\n"
         self.files[name] = head + "".join(lines)
-
-    def _file_name(self) -> str:
-        """Return a name for the profile file that no other file next to the deck has."""
-        stem = _UNSAFE.sub("-", PurePath(self.deck.source).stem).strip("-.") or "deck"
-        name, number = f"{stem}-profile.txt", 2
-        while self.deck.folder is not None and (self.deck.folder / name).exists():
-            name, number = f"{stem}-profile-{number}.txt", number + 1
-        return name
 
 
 def _other_lines(fields: Mapping[str, str]) -> list[str]:

@@ -311,12 +311,10 @@ class _Planner:
 
     def _readable(self, planned: ExpansionPlan) -> None:
         """Read a deck for each set of actions: the lines that a file adds may be faulty."""
-        tried: set[tuple[int, ...]] = set()
+        first: dict[tuple[Action, ...], PlannedDeck] = {}
         for deck in planned.decks:
-            key = tuple(id(action) for action in deck.actions)
-            if key in tried:
-                continue
-            tried.add(key)
+            first.setdefault(tuple(deck.actions), deck)
+        for deck in first.values():
             content = planned.content(replace(deck, path=""))
             read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
             faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from lsprotocol import types
 
-from mudline.basics.limits import MOST_HINTS
+from mudline.basics.limits import LISTED, MOST_HINTS
 from mudline.basics.quantities import unit_names
-from mudline.basics.short_repr import counted
+from mudline.basics.short_repr import counted, listed_numbers
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Span
@@ -119,15 +119,6 @@ def _value_help(analysis: Analysis, value_site: Site) -> Iterator[str]:
     yield segment_help(analysis, value_site)
 
 
-_FEW = 10
-
-
-def listed(numbers: list[int]) -> str:
-    """Return the first numbers, and the count of all if they are more."""
-    more = f", ... ({len(numbers)} in all)" if len(numbers) > _FEW else ""
-    return ", ".join(map(str, numbers[:_FEW])) + more
-
-
 # --------------------------------------------------------------------------------------------------------- parameters
 
 
@@ -182,7 +173,7 @@ def set_help(scene: Scene, name: str) -> str:
         return ""
     words = [f"set **{named_set.name}**: {counted(len(named_set.elements), 'element')}"]
     if len(named_set.elements):
-        words.append(listed(scene.element_ids[named_set.elements].tolist()))
+        words.append(listed_numbers(scene.element_ids[named_set.elements].tolist()))
         lengths = scene.length[named_set.elements]
         words.append(_with_unit("total length", float(np.nansum(lengths)), unit_names(scene.units).length))
     if diameters := _diameters(scene, scene.diameter[named_set.elements]):
@@ -288,7 +279,7 @@ def _node(scene: Scene, index: int) -> Iterator[str]:
     yield f"node **{scene.node_ids[index]}**: X {x:g}, Y {y:g}, Z {z:g}"
     ends = scene.element_ids[(scene.element_nodes == index).any(axis=1)].tolist()
     if ends:
-        yield f"of {'element' if len(ends) == 1 else 'elements'} {listed(ends)}"
+        yield f"of {'element' if len(ends) == 1 else 'elements'} {listed_numbers(ends)}"
 
 
 def _element(scene: Scene, index: int) -> Iterator[str]:
@@ -301,7 +292,7 @@ def _element(scene: Scene, index: int) -> Iterator[str]:
         facts.append(_with_unit("D =", float(scene.diameter[index]), unit))
     yield f"element **{scene.element_ids[index]}**: {', '.join(facts)}"
     sets = [shown(each.name) for each in scene.set_table.named.values() if index in each.elements]
-    yield f"in {', '.join(sets[:_FEW])}" + (" and more" if len(sets) > _FEW else "")
+    yield f"in {', '.join(sets[:LISTED])}" + (" and more" if len(sets) > LISTED else "")
 
 
 # ---------------------------------------------------------------------------------------------------- between the lines
