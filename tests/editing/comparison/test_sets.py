@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.editing.comparison.comparing import compare
-from mudline.editing.comparison.sets import Spans, spans_of, spans_of_run, text_of, union
+from mudline.editing.comparison.model import Spans, spans_of, spans_of_run, text_of, union
 from mudline.language.deck.loading import load_bytes
 from mudline.model.scene.model import resolve
 

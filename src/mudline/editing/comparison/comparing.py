@@ -10,11 +10,24 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.basics.limits import MOST_GENERATED
 from mudline.editing.comparison.blocks import blocks, record_values
-from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, Value, plain
-from mudline.editing.comparison.sets import set_differences, spans_of, text_of
+from mudline.editing.comparison.model import (
+    Allowance,
+    Difference,
+    Pair,
+    Side,
+    Spans,
+    Value,
+    plain,
+    spans_of,
+    spans_of_run,
+    text_of,
+    union,
+)
 from mudline.language.deck.parameters import Definition, folded
 from mudline.language.diagnostics import Where
+from mudline.language.keywords.library.mesh import SetGenerate, SetList, SetSubset
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Label
 from mudline.model.contact.input import LawKind
@@ -36,7 +49,7 @@ def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Differe
     pair.after.require()
     of_keywords = list(blocks(pair))  # first, so that differences of elements do not repeat them
     of_files = partial(seabed_points, of_files=True)
-    groups = (_units, _parameters, _nodes, _elements, set_differences, _curves, _by_element, of_files)
+    groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, of_files)
     return [*(difference for differences in groups for difference in differences(pair)), *of_keywords]
 
 
@@ -128,6 +141,57 @@ def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tu
                 key = tuple(str(cell).casefold() for cell in cells)
                 rows_by_key[key] = (cells, where.inside("entries", index, name, row))
     return rows_by_key
+
+
+_SetLine = SetList | SetGenerate | SetSubset
+
+
+def _sets(pair: Pair) -> Iterator[Difference]:
+    """Yield the differences of the members of element sets; ALL has all elements."""
+    first, second = pair.before.scene.set_table.named, pair.after.scene.set_table.named
+    written, others = _lines_of_sets(pair.before), _lines_of_sets(pair.after)
+    for name in dict.fromkeys([*first, *second]):
+        if name == "all":
+            continue
+        old, new = first.get(name), second.get(name)
+        before = text_of(spans_of(pair.before.scene.element_ids[old.elements])) if old else None
+        after = text_of(spans_of(pair.after.scene.element_ids[new.elements])) if new else None
+        if old and new and (old.open or new.open or not (len(old.elements) and len(new.elements))):
+            lines, other_lines = written.get(name, []), others.get(name, [])
+            if lines == other_lines:  # may be ranges of very many numbers
+                continue
+            before, after = _members(lines), _members(other_lines)
+        if before != after:
+            title = old.name if old else new.name if new else name
+            held = ((members, each.where) if each else None for members, each in ((before, old), (after, new)))
+            yield pair.difference("element sets", f"element sets/{title}", *held)
+
+
+def _lines_of_sets(side: Side) -> dict[str, list[_SetLine]]:
+    """Return the lines of sets by name, for sets with elements that the deck does not define."""
+    lines: dict[str, list[_SetLine]] = {}
+    for _, block in side.scene.deck.blocks("ELEMENT SETS"):
+        for entry in block.sets:
+            lines.setdefault(folded(str(entry.name)), []).extend(entry.members)
+    return lines
+
+
+def _members(lines: Sequence[_SetLine]) -> str:
+    """Return the members of a set that its lines name, as text; a GEN= that is invalid names none."""
+    spans, words = list[Spans](), set[str]()
+    for line in lines:
+        match line:
+            case SetSubset():
+                words.add(f"SUBSET={folded(line.subset)}")
+            case SetList():
+                words |= {folded(item) for item in line.elements if isinstance(item, Label)}
+                spans.append(spans_of(np.array([item for item in line.elements if isinstance(item, int)], np.int64)))
+            case SetGenerate():
+                start, end, step = line.generate.start, line.generate.end, line.generate.increment
+                step = 1 if step is None else step
+                if isinstance(start, int) and isinstance(end, int) and isinstance(step, int) and step >= 1:
+                    spans.append(spans_of_run(start, min(end, start + MOST_GENERATED * step), step))
+    return ", ".join(filter(None, [text_of(union(spans)), *sorted(words)]))
 
 
 _KINDS = {False: "curves", True: "curves of sets"}
