@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,9 +15,7 @@ from mudline.language.keywords.library.seabed_curves import Embedment, SeabedSti
 from mudline.language.keywords.writer import block_lines
 from mudline.model.curves import CurveError, ForceCurve
 from mudline.model.curves.backbones import MODELS, Backbone, Soil
-
-if TYPE_CHECKING:
-    from mudline.model.curves.points import FloatArray
+from mudline.model.curves.points import FloatArray
 
 FINEST, COARSEST = 1e-5, 0.1
 """Smallest and largest tolerance."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.outside import without_text
@@ -16,6 +16,8 @@ from mudline.language.deck.parameters import DEFINING, Parameters, folded, list_
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.library.preprocessor import Parameters as ParameterBlock
+from mudline.language.keywords.library.preprocessor import VariedBlock
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.text import shown, suggestion
 from mudline.language.keywords.values import Equation
@@ -24,11 +26,6 @@ from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import LeafKind, canonical_name, parse
 from mudline.model.scene.deck_values import find_file, not_found
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.preprocessor import Parameters as Block_
-    from mudline.language.keywords.library.preprocessor import VariedBlock
-
 
 Values = Mapping[str, str]
 """Values as written in `*PARAMETERS`, by the name of the parameter there."""
@@ -60,7 +57,7 @@ class ParameterTargets:
         self._targets: dict[str, ParameterTarget] = {}
         self._effort = Effort()
         for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
-            for index, parameter in enumerate(cast("Block_", block).parameters):
+            for index, parameter in enumerate(cast("ParameterBlock", block).parameters):
                 place = where.inside("parameters", index, "value")
                 self._targets |= {folded(target.name): target for target in self._written(parameter.name, place)}
 
@@ -104,7 +101,7 @@ def with_values(deck: Deck, values: Values) -> Deck:
     The parameters are defined again after all others, as the last definition of a parameter applies.
     """
     where, block = [entry for entry in deck.blocks("PARAMETERS", "PREPROCESSOR") if entry[1].parameters][-1]
-    known = cast("Block_", block).parameters
+    known = cast("ParameterBlock", block).parameters
     more = [known[-1].model_copy(update={"name": name, "value": text}) for name, text in values.items()]
     sections = list(deck.sections)
     blocks = list(sections[where.section].blocks)

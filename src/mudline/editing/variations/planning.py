@@ -8,7 +8,7 @@ from decimal import Decimal
 from itertools import chain, product
 from math import prod
 from pathlib import PurePath
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
@@ -29,13 +29,10 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import NoValueError
 from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import DeckError, Problem, Severity, Where
+from mudline.language.keywords.library.preprocessor import Combination, NamedVariation, ValueRange, VariedParameter
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation
 from mudline.language.syntax.source import Source
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.preprocessor import Combination, NamedVariation, ValueRange, VariedParameter
-
 
 _ENDINGS = (*SUFFIXES, ".json", ".yaml", ".yml")
 """Suffixes of decks; a file name without one gets the suffix of the source."""

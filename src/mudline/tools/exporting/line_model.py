@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple, cast
+from itertools import groupby, pairwise
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from mudline.basics.quantities import shown
 from mudline.language.diagnostics import Where
+from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
 from mudline.model.contact import ContactResult
 from mudline.model.contact.lines import lines_of
+from mudline.model.contact.seabed import Seabed
 from mudline.model.contact.touchdown import line_summaries
 from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
@@ -27,10 +29,6 @@ from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Secti
 from mudline.model.scene.weights import Pipe, contents_case, pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome
 from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
-    from mudline.model.contact.seabed import Seabed
 
 _ALIKE = 1e-3
 """Share of the longest element by which equal lengths may differ."""
@@ -103,13 +101,10 @@ class ExportLine(NamedTuple):
     def pieces(self, key: Callable[[LineStretch], object]) -> list[LineStretch]:
         """Return the stretches, with consecutive stretches of the same key joined."""
         joined: list[LineStretch] = []
-        for stretch in self.stretches:
-            last = joined[-1] if joined else None
-            if last is None or key(last) != key(stretch):
-                joined.append(stretch)
-                continue
-            nodes, lengths = np.append(last.nodes, stretch.nodes[1:]), np.append(last.lengths, stretch.lengths)
-            joined[-1] = LineStretch(last.section, last.soil, nodes, lengths)
+        for first, *others in (list(alike) for _, alike in groupby(self.stretches, key)):
+            nodes = np.concatenate([first.nodes, *(stretch.nodes[1:] for stretch in others)])
+            lengths = np.concatenate([first.lengths, *(stretch.lengths for stretch in others)])
+            joined.append(LineStretch(first.section, first.soil, nodes, lengths))
         return joined
 
 
@@ -327,18 +322,19 @@ def _lines(
     held, vessels = held_freedoms(scene, [scene.deck])
     traced = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
     degree = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
-    ends: dict[int, End] = {}
     order: dict[int, int] = {}
+    ends: list[End] = []
     lines: list[ExportLine] = []
 
     def end_of(node: int) -> int:
-        if node not in ends:
+        if node not in order:
             end = End(node, held.get(node, NO_FREEDOMS), node in vessels)
             if end.joins and degree[node] < 2:
                 what = f"node {int(scene.node_ids[node])} ends a line, and nothing in *BOUNDARY holds it along an axis"
                 raise scene.refusal(f"{what}: a free end cannot be exported; hold the node", scene.nodes.where(node))
-            ends[node] = end
-        return order.setdefault(node, len(order))
+            order[node] = len(ends)
+            ends.append(end)
+        return order[node]
 
     for elements, nodes in zip(traced.elements, traced.nodes, strict=True):
         if nodes[0] == nodes[-1]:
@@ -357,8 +353,8 @@ def _lines(
                 for a, b in pairwise(starts)
             ]
             lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))
-    _report_held(scene, report, held, set(ends))
-    return list(ends.values()), lines
+    _report_held(scene, report, held, set(order))
+    return ends, lines
 
 
 # ----------------------------------------------------------------------------------------------------------------- ends
