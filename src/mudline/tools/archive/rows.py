@@ -26,7 +26,6 @@ from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Severit
 from mudline.language.keywords.catalogue import is_extension, is_superseded
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.keywords.writer import block_lines
-from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.sets import ALL
 
@@ -193,8 +192,7 @@ def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None)
     read = (coverage.total, coverage.read, sum(coverage.partly.values()), sum(coverage.unread.values()))
     sizes = (len(scene.node_ids), len(scene.element_ids), len(rows["sets"]), len(scene.laws.curves))
     ok = not errors_of(all_findings(context))
-    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
-    measures = (float(np.nansum(scene.length)), number(oceans[-1], "depth") if oceans else None)
+    measures = (float(np.nansum(scene.length)), scene.surroundings.depth)
     content = (keywords[0].content + keywords[0].others) % _DIGESTS if keywords else 0
     row = DeckRow(deck.units, ok, *severities, len(deck.sections), *read, *sizes, *measures, content)
     return {"decks": [row], **rows}

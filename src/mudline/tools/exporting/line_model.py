@@ -154,7 +154,9 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     if units is None:
         raise scene.refusal("the units of this deck are not known: give --units metric or --units imperial")
     _require_elements(scene)
-    around, depth = scene.surroundings, _depth(scene)
+    density, gravity, depth = scene.surroundings
+    if not (depth > 0.0 and gravity > 0.0):
+        raise scene.refusal("a model for another program needs *OCEAN with depth, density and gravity: give it")
     sections, of_element = _sections(scene, units)
     soils, soil_of = soils_of(scene, units)
     positions_used = scene.coordinates if positions is None else positions
@@ -167,8 +169,7 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     lengths = np.bincount(soil_of, scene.length * weights, len(soils))
     soil = soils[int(np.argmax(np.where(carrying, lengths, -1.0)))]
     seabed = None if scene.seabed.kind is SeabedKind.FLAT else made_seabed(scene.seabed)
-    density = around.density * units.mass / units.length**3
-    si = (depth * units.length, density, around.gravity * units.length)
+    si = (depth * units.length, density * units.mass / units.length**3, gravity * units.length)
     values = [value for each in (*sections, *soils) for value in each if isinstance(value, float)]
     if not np.isfinite([*values, *si, *places[scene.element_nodes].ravel()]).all():
         raise scene.refusal("a number of the lines is not finite in SI units: correct the largest of the deck")
@@ -205,14 +206,6 @@ def _require_elements(scene: Scene) -> None:
     if unknown.size:
         message = "the element has no known length, so its line cannot be exported: give coordinates to its nodes"
         raise scene.refusal(message, scene.table.numbered.where(int(unknown[0])))
-
-
-def _depth(scene: Scene) -> float:
-    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
-    depth = number(oceans[-1], "depth") if oceans else math.nan
-    if not (depth > 0.0 and scene.surroundings.gravity > 0.0):
-        raise scene.refusal("a model for another program needs *OCEAN with depth, density and gravity: give it")
-    return depth
 
 
 # ------------------------------------------------------------------------------------------------------- sections

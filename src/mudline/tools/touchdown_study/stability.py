@@ -14,6 +14,7 @@ from mudline.model.contact.embedment import static_depth
 from mudline.model.contact.input import LawKind
 from mudline.model.curves import ForceCurve
 from mudline.model.results.stage_times import Timer, seconds_per_step
+from mudline.model.results.summary import followers
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.load_case import OwnSteps
 from mudline.model.scene.model import Scene
@@ -149,8 +150,7 @@ def change(value: float, reference: float) -> float:
 def _curves_in_use(scene: Scene, given: ContactInput) -> Iterator[tuple[SceneCurve, ForceCurve, float, float]]:
     """Yield the curves that elements follow, with diameter and submerged weight of the first of these elements."""
     for index, entry in enumerate(scene.laws.curves):
-        granted = np.array([grant.curve == index for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
-        rows = np.flatnonzero(granted & (scene.law == LawKind.CURVE))
+        rows = np.flatnonzero(followers(scene, index))
         if entry.curve is not None and rows.size:
             at = int(rows[0])
             weight = math.nan if given.weight is None else float(given.weight[at])

@@ -15,6 +15,7 @@ from mudline.model.contact.embedment import static_depth
 from mudline.model.contact.input import LawAssignment
 from mudline.model.contact.stretch import cut_out
 from mudline.model.curves import ForceCurve
+from mudline.model.scene.deck_values import FOOT
 from mudline.model.scene.load_case import Scheme, TopMotion, scheme_of, top_motion
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
@@ -281,7 +282,7 @@ def _require(scene: Scene, own: int, weight: float, bending: float, mass: float)
 
 def _travel(scene: Scene, line: LineAtRest, motion: TopMotion) -> float:
     """Return the amplitude of the touchdown, from the resting shapes with the top moved a little."""
-    step = _DELTA / 0.3048 if scene.units == "imperial" else _DELTA
+    step = _DELTA / FOOT if scene.units == "imperial" else _DELTA
 
     def moved(surge: float, heave: float) -> float:
         ends = [touchdowns(line.moved(sign * surge, sign * heave), line.model.length)[-1].arc for sign in (1.0, -1.0)]
