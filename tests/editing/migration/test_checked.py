@@ -32,7 +32,7 @@ def test_a_rewriting_that_changes_more_is_refused(
 ) -> None:
     rewrite = MigrationRewriter.rewrite
 
-    def wrong(rewriter: MigrationRewriter) -> tuple[list[TextEdit], dict[str, str]]:
+    def wrong(rewriter: MigrationRewriter) -> tuple[list[TextEdit], dict[str, bytes]]:
         edits, files = rewrite(rewriter)
         start = TEXT.index(old)
         return [*edits, TextEdit(Span(start, start + len(old)), new)], files

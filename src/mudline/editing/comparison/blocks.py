@@ -215,7 +215,7 @@ def _group(name: _Name) -> str:
 
 def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
     modelled: dict[_Name, list[tuple[Where, Block]]] = {}
-    titles = _titles(side)
+    titles = list(_titles(side))
     for where, _, block in side.scene.deck.every_block():
         if isinstance(block, Block) and not block.facts.defines:
             name = (titles[where.section], block.keyword)
@@ -223,14 +223,12 @@ def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
     return modelled
 
 
-def _titles(side: Side) -> list[str]:
-    """Return the sections by name; a second load case, which differs from the first, has its number."""
+def _titles(side: Side) -> Iterator[str]:
+    """Yield the sections by name; a second load case, which differs from the first, has its number."""
     counts: dict[str, int] = {}
-    titles: list[str] = []
     for section in side.scene.deck.sections:
         count = counts[section.name] = counts.get(section.name, 0) + 1
-        titles.append(section.name if count == 1 or section.name in _ONE_IN_ALL else f"{section.name} {count}")
-    return titles
+        yield section.name if count == 1 or section.name in _ONE_IN_ALL else f"{section.name} {count}"
 
 
 _Lines = list[tuple[str, Where]]
@@ -240,7 +238,7 @@ def _lines(side: Side) -> dict[_Name, _Lines]:
     """Return the data lines without blanks at their ends; those of blocks of the same keyword follow each other."""
     lines_by_name: dict[_Name, _Lines] = {}
     deck = side.scene.deck
-    titles = _titles(side)
+    titles = list(_titles(side))
     if data := [(line, Where()) for line in _data(deck.preamble)]:
         lines_by_name["", ""] = data
     for i, section in enumerate(deck.sections):

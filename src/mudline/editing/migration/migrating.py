@@ -72,14 +72,11 @@ def migrate(deck: Deck, continued_by: Sequence[str] = (), *, extended: bool = Fa
         raise DeckError(deck.diagnose(problems))
     if not replaced:
         return Migration(before, before, deck, b"", {}, replaced)
-    text = as_text(deck)
-    edits, profile = MigrationRewriter(text, unused_definitions(before, extended=extended)).rewrite()
-    origin = text.origin
-    assert isinstance(origin, TextOrigin)  # noqa: S101 - `as_text` returns no other origin
-    content = edited_bytes(origin.source, edits)
+    rewriter = MigrationRewriter(as_text(deck), unused_definitions(before, extended=extended))
+    edits, files = rewriter.rewrite()
+    content = edited_bytes(rewriter.origin.source, edits)
     changed = read_source(Source.from_bytes(content, deck.file), units=deck.units)
     changed = replace(changed, source=deck.source, folder=deck.folder)
-    files = {name: lines.encode() for name, lines in profile.items()}
     after = _checked(deck, before, changed, files)
     if not isinstance(deck.origin, TextOrigin):
         content = dump(changed, form_of(deck.file)).encode()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import chain, count
 from pathlib import PurePath
 from typing import cast
@@ -64,9 +64,9 @@ class MigrationRewriter:
         self.origin = cast("TextOrigin", deck.origin)
         self.text = self.origin.source.unified
         self.edits: list[TextEdit] = []
-        self.files: dict[str, str] = {}
+        self.files: dict[str, bytes] = {}
 
-    def rewrite(self) -> tuple[list[TextEdit], dict[str, str]]:
+    def rewrite(self) -> tuple[list[TextEdit], dict[str, bytes]]:
         """Return the edits of the text, and the content of the files that the new text names, by name."""
         curves: list[tuple[Where, int, str]] = []
         for where, block in self.deck.blocks("EMBEDMENT"):
@@ -147,7 +147,7 @@ class MigrationRewriter:
         self._head(where, "SEABED PROPERTIES")
         rows = self._rows(where)
         fields = self._fields(where, block)
-        stiffness, others = fields.get("stiffness", ""), _other_lines(fields)
+        stiffness, others = fields.get("stiffness", ""), list(_other_lines(fields))
         type_ = block.facts.seabed_type
         lines = [f"TYPE={type_}"]
         if Where(where.section, where.block) in self.unused:
@@ -192,22 +192,20 @@ class MigrationRewriter:
         points = zip(block.profile.column(0).tolist(), block.profile.column(1).tolist(), strict=True)
         lines = [f"{y!r}, {elevation!r}\n".upper() for y, elevation in points]
         head = f"C Y, elevation: profile of *{block.keyword} of {self.deck.source}\n"
-        self.files[name] = head + "".join(lines)
+        self.files[name] = (head + "".join(lines)).encode()
 
 
-def _other_lines(fields: Mapping[str, str]) -> list[str]:
-    """Return the lines of a surface next to its stiffness, from fields as written by name; "" for an empty field."""
-    lines: list[str] = []
+def _other_lines(fields: Mapping[str, str]) -> Iterator[str]:
+    """Yield the lines of a surface next to its stiffness, from fields as written by name; "" for an empty field."""
     friction = [fields.get(name, "") for name in _FRICTION]
     if any(friction):
         friction[:2] = [value or "0" for value in friction[:2]]
-        lines.append("FRICTION=" + ", ".join(friction).rstrip(", "))
+        yield "FRICTION=" + ", ".join(friction).rstrip(", ")
     if fields.get("lateral"):
-        lines.append(f"LATERAL={fields['lateral']}")
+        yield f"LATERAL={fields['lateral']}"
     suction = [fields.get("suction_stiffness", ""), fields.get("suction_extent", "")]
     if any(suction):
-        lines.append("SUCTION=" + ", ".join([suction[0] or "0", suction[1]]).rstrip(", "))
-    return lines
+        yield "SUCTION=" + ", ".join([suction[0] or "0", suction[1]]).rstrip(", ")
 
 
 def curve_names(sets: Iterable[str], taken: Iterable[str]) -> list[str]:

@@ -99,12 +99,8 @@ def companions(deck: Deck) -> list[str]:
 
     Files of `$PREPROCESSOR` are left out: they are needed to make the new decks, not by the new decks.
     """
-    existing: dict[str, None] = {}
-    for written in _written(deck):
-        name = file_name(written)
-        if name and not path_fault(name) and find_file(deck.folder, name):
-            existing[name] = None
-    return list(existing)
+    names = map(file_name, _written(deck))
+    return list(dict.fromkeys(name for name in names if name and not path_fault(name) and find_file(deck.folder, name)))
 
 
 def _written(deck: Deck) -> Iterator[str]:
@@ -174,11 +170,8 @@ class ExpansionPlan:
 
     def edits(self, planned: PlannedDeck) -> list[TextEdit]:
         """Return the edits of the source's text that give a planned deck."""
-        edits: list[TextEdit] = []
-        for name, value in planned.values.items():
-            target = self.targets.target(name)
-            if value != target.text:
-                edits.append(TextEdit(target.span, value))
+        targets = ((self.targets.target(name), value) for name, value in planned.values.items())
+        edits = [TextEdit(target.span, value) for target, value in targets if value != target.text]
         origin = cast("TextOrigin", self.deck.origin)
         text, sections = origin.source.unified, origin.tree.sections
         gone = {

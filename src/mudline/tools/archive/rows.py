@@ -174,13 +174,13 @@ def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None)
         deck = load_bytes(data, name, units=settings.units, folder=folder)
     except DeckError as error:
         row = DeckRow(settings.units or "user", ok=False, errors=len(error.diagnostics))
-        return {"decks": [row], "findings": _findings(error.diagnostics)}
+        return {"decks": [row], "findings": list(_findings(error.diagnostics))}
     context = LintContext(deck, dialect=settings.dialect)
     findings = with_severities(lint_context(context, settings.rules), settings)
     scene, coverage = context.scene, coverage_of(deck)
     keywords = list(_keywords(deck))
     rows: Rows = {
-        "findings": _findings(findings),
+        "findings": list(_findings(findings)),
         "keywords": keywords,
         "sets": list(_sets(deck, scene)),
         "curves": list(_curves(deck, scene)),
@@ -202,13 +202,11 @@ def _line(deck: Deck, where: Where | None) -> int | None:
     return None if where is None else deck.place(Problem(SYN001, "", where=where)).line
 
 
-def _findings(findings: Iterable[Diagnostic]) -> list[FindingRow]:
-    rows = []
+def _findings(findings: Iterable[Diagnostic]) -> Iterator[FindingRow]:
     for each in findings:
         place = (each.line, each.column, each.end_line, each.end_column)
         fix = each.fix.applicability if each.fix else None
-        rows.append(FindingRow(each.code, each.slug, each.severity.value, each.message, *place, fix, each.blocks))
-    return rows
+        yield FindingRow(each.code, each.slug, each.severity.value, each.message, *place, fix, each.blocks)
 
 
 def _keywords(deck: Deck) -> Iterator[KeywordRow]:

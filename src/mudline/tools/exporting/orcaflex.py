@@ -8,6 +8,7 @@ deck.
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from math import atan2, cos, degrees, hypot, radians
 
 import numpy as np
@@ -83,17 +84,15 @@ def write(model: LineModel, name: str) -> dict[str, str]:
     return {name: "".join(f"{row}\n" for row in text)}
 
 
-def _rows(items: Items, margin: str) -> list[str]:
-    """Return items as lines; a list of lists is a table, with a line for each of its rows."""
-    rows: list[str] = []
+def _rows(items: Items, margin: str) -> Iterator[str]:
+    """Yield items as lines; a list of lists is a table, with a line for each of its rows."""
     for key, value in items.items():
         if key == "#":
-            rows.append(f"{margin}# {one_line(str(value))}")
+            yield f"{margin}# {one_line(str(value))}"
         elif isinstance(value, list) and value and isinstance(value[0], list):
-            rows += [f"{margin}{key}:", *(f"{margin}  - {_value(row)}" for row in value)]
+            yield from (f"{margin}{key}:", *(f"{margin}  - {_value(row)}" for row in value))
         else:
-            rows.append(f"{margin}{key}: {_value(value)}")
-    return rows
+            yield f"{margin}{key}: {_value(value)}"
 
 
 def _value(value: object) -> str:

@@ -251,8 +251,8 @@ Ask = Callable[[Navigator, Any], object]
 
 _ANSWERS: dict[str, tuple[Ask, object]] = {
     types.TEXT_DOCUMENT_HOVER: (lambda deck, asked: hover(deck.analysis, deck.at(asked.position)), None),
-    types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (lambda deck, _: structure.outline(deck.analysis), []),
-    types.TEXT_DOCUMENT_FOLDING_RANGE: (lambda deck, _: structure.folding(deck.analysis), []),
+    types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (lambda deck, _: list(structure.outline(deck.analysis)), []),
+    types.TEXT_DOCUMENT_FOLDING_RANGE: (lambda deck, _: list(structure.folding(deck.analysis)), []),
     types.TEXT_DOCUMENT_FORMATTING: (lambda deck, _: structure.formatting(deck.analysis), []),
     types.TEXT_DOCUMENT_INLAY_HINT: (lambda deck, asked: hints(deck.analysis, asked.range), []),
     types.TEXT_DOCUMENT_DEFINITION: (lambda deck, asked: deck.definition(deck.at(asked.position)), []),

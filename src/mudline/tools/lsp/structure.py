@@ -69,15 +69,13 @@ def tokens(document: OpenDocument) -> types.SemanticTokens:
 # ----------------------------------------------------------------------------------------------------------- outline
 
 
-def outline(analysis: Analysis) -> list[types.DocumentSymbol]:
-    """Return sections, their blocks, and the named records in these: sets, curves, parameters."""
+def outline(analysis: Analysis) -> Iterator[types.DocumentSymbol]:
+    """Yield sections, their blocks, and the named records in these: sets, curves, parameters."""
     origin = analysis.origin
-    symbols: list[types.DocumentSymbol] = []
     for index, section, head, end in _sections(origin):
         lines = enumerate(_extents(section, end))
         blocks = [_block(analysis, origin, (index, number), raw, stop) for number, (raw, stop) in lines]
-        symbols.append(_symbol(analysis, f"${section.name}", types.SymbolKind.Module, head, end, blocks))
-    return symbols
+        yield _symbol(analysis, f"${section.name}", types.SymbolKind.Module, head, end, blocks)
 
 
 def _sections(origin: TextOrigin) -> Iterator[tuple[int, RawSection, Span, int]]:
@@ -149,20 +147,19 @@ def _name(record: Part) -> str:
 # ----------------------------------------------------------------------------------------------------------- folding
 
 
-def folding(analysis: Analysis) -> list[types.FoldingRange]:
-    """Return the folding ranges: sections, blocks, and comments of more than one line."""
+def folding(analysis: Analysis) -> Iterator[types.FoldingRange]:
+    """Yield the folding ranges: sections, blocks, and comments of more than one line."""
     origin = analysis.origin
     spans = [(span, types.FoldingRangeKind.Comment) for span in _comments(origin)]
     for _, section, head, stop in _sections(origin):
         blocks = (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
         spans += [(span, types.FoldingRangeKind.Region) for span in (Span(head.start, stop), *blocks)]
-    document, ranges = analysis.document, []
+    document = analysis.document
     for span, kind in sorted(spans, key=lambda each: each[1] is types.FoldingRangeKind.Comment):
         body = trimmed(document.text, *span)
         first, last = document.line_at(body.start), document.line_at(max(body.end - 1, body.start))
         if last > first:
-            ranges.append(types.FoldingRange(first, last, kind=kind))
-    return ranges
+            yield types.FoldingRange(first, last, kind=kind)
 
 
 def _comments(origin: TextOrigin) -> Iterator[Span]:

@@ -211,16 +211,14 @@ def curve_notes(scene: Scene, given: ContactInput) -> list[str]:
 # ------------------------------------------------------------------------------------------------------------- friction
 
 
-def friction_rows(scene: Scene, given: ContactInput, own: OwnSteps | None) -> list[FrictionRow]:
-    """Return the period 2 pi sqrt(m l/Kt) of a sticking node, for each block that gives friction."""
-    rows = []
+def friction_rows(scene: Scene, given: ContactInput, own: OwnSteps | None) -> Iterator[FrictionRow]:
+    """Yield the period 2 pi sqrt(m l/Kt) of a sticking node, for each block that gives friction."""
     for oscillation in oscillations(scene, given).found:
         if oscillation.kind == "friction" and oscillation.omega > 0.0:
             period = 2.0 * math.pi / oscillation.omega
             steps = None if own is None else period / own.largest
             name, line = oscillation.name.removeprefix("friction on "), scene.line_of(oscillation.where)
-            rows.append(FrictionRow(name, line, period, steps))
-    return rows
+            yield FrictionRow(name, line, period, steps)
 
 
 def axial_period(zone: Zone) -> float | None:

@@ -208,7 +208,7 @@ def study(
             if result.zone is not None:
                 result.extremes, left_out = extreme_rows(result.zone, own)
                 notes += left_out
-            result.friction = friction_rows(scene, given, own)
+            result.friction = list(friction_rows(scene, given, own))
             result.evaluator = evaluator_row(given, timer)
         elif part == "pruning":
             result.stages = pruned(scene, given, timer)

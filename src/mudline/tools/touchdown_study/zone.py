@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple, cast
@@ -258,7 +259,7 @@ def touchdown_zone(scene: Scene, given: ContactInput, heave: float | None, perio
         motion.period,
     )
     unit, wave = unit_names(scene.units).behind("length"), math.sqrt(tension / mass) * motion.period
-    notes = _limits(line, 2.0 * travel + 4.0 * size, right, wave, right / a, unit)
+    notes = list(_limits(line, 2.0 * travel + 4.0 * size, right, wave, right / a, unit))
     place, schemes = (elements, nodes, node - first), (scheme, scheme_line)
     return Zone(scene, given, pipe, line, *place, beam, *schemes, motion, travel, float(depths[1]), notes)
 
@@ -294,20 +295,18 @@ def _travel(scene: Scene, line: LineAtRest, motion: TopMotion) -> float:
         raise NotStudiedError(f"with the top moved by {step:.3g} the line has no resting shape: {error}") from error
 
 
-def _limits(line: LineAtRest, shortest: float, right: float, wave: float, slope: float, unit: str) -> list[str]:
-    """Return sentences on limits of the zone, of its waves and of small slopes."""
-    notes = []
+def _limits(line: LineAtRest, shortest: float, right: float, wave: float, slope: float, unit: str) -> Iterator[str]:
+    """Yield sentences on limits of the zone, of its waves and of small slopes."""
     if right < shortest:
-        notes.append(f"The zone is short: {right:.3g} of {shortest:.3g}{unit} right of the touchdown.")
+        yield f"The zone is short: {right:.3g} of {shortest:.3g}{unit} right of the touchdown."
     if right > wave / 4.0:
-        notes.append(
+        yield (
             f"The end of the zone reflects: {right:.3g}{unit} is more than a quarter of a wave, {wave / 4.0:.3g}{unit}."
         )
     if slope > _STEEP:
-        notes.append(f"Slopes are not small: {slope:.2f} at the end of the zone.")
+        yield f"Slopes are not small: {slope:.2f} at the end of the zone."
     if line.seabed.slope:
-        notes.append("The model is along the seabed, which slopes: the weight along it is left out.")
-    return notes
+        yield "The model is along the seabed, which slopes: the weight along it is left out."
 
 
 def jump(curve: ForceCurve, weight: float) -> float:
