@@ -79,7 +79,7 @@ class MigrationRewriter:
             curves += used
         taken = [curve.name for _, block in self.deck.blocks("SEABED STIFFNESS") for curve in block.curves]
         sets = [set_name for _, _, set_name in curves]
-        names = curve_names(sets, taken)
+        names = list(curve_names(sets, taken))
         for (where, index, _), name in zip(curves, names, strict=True):
             self._curve(where, index, name)
         for where, block in surfaces(self.deck):
@@ -208,18 +208,16 @@ def _other_lines(fields: Mapping[str, str]) -> Iterator[str]:
         yield "SUCTION=" + ", ".join([suction[0] or "0", suction[1]]).rstrip(", ")
 
 
-def curve_names(sets: Iterable[str], taken: Iterable[str]) -> list[str]:
-    """Return a name for each curve of `*EMBEDMENT`: that of its set, with ` curve` and a number appended if needed.
+def curve_names(sets: Iterable[str], taken: Iterable[str]) -> Iterator[str]:
+    """Yield a name for each curve of `*EMBEDMENT`: that of its set, with ` curve` and a number appended if needed.
 
     A name that another curve has, in any case of letters, would name both. A name that reads as a number or an equation
     would be taken for a stiffness.
     """
     used = {folded(name) for name in taken}
-    names: list[str] = []
     for name in sets:
         base = f"{name} curve" if reads_as_name(f"{name} curve") else "curve"
         candidates = chain([name, base], (f"{base} {number}" for number in count(2)))
         chosen = next(each for each in candidates if folded(each) not in used and reads_as_name(each))
         used.add(folded(chosen))
-        names.append(chosen)
-    return names
+        yield chosen

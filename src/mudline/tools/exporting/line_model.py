@@ -7,7 +7,7 @@ mudline at X = 0 of the deck is at z = -depth.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import groupby, pairwise
 from typing import NamedTuple, cast
 
@@ -98,14 +98,12 @@ class ExportLine(NamedTuple):
     end: int
     stretches: list[LineStretch]
 
-    def pieces(self, key: Callable[[LineStretch], object]) -> list[LineStretch]:
-        """Return the stretches, with consecutive stretches of the same key joined."""
-        joined: list[LineStretch] = []
+    def pieces(self, key: Callable[[LineStretch], object]) -> Iterator[LineStretch]:
+        """Yield the stretches, with consecutive stretches of the same key joined."""
         for first, *others in (list(alike) for _, alike in groupby(self.stretches, key)):
             nodes = np.concatenate([first.nodes, *(stretch.nodes[1:] for stretch in others)])
             lengths = np.concatenate([first.lengths, *(stretch.lengths for stretch in others)])
-            joined.append(LineStretch(first.section, first.soil, nodes, lengths))
-        return joined
+            yield LineStretch(first.section, first.soil, nodes, lengths)
 
 
 class LineModel(NamedTuple):

@@ -53,7 +53,7 @@ Items = dict[str, object]
 
 def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the sections of OrcaFlex along each line of the model: friction belongs to the line type."""
-    return [line.pieces(lambda each: (each.section, each.soil)) for line in model.lines]
+    return [list(line.pieces(lambda each: (each.section, each.soil))) for line in model.lines]
 
 
 def segments(piece: LineStretch) -> int:

@@ -61,22 +61,20 @@ def _shown(document: OpenDocument, finding: Diagnostic) -> types.Diagnostic:
 
 def actions(
     analysis: Analysis, range_: types.Range, only: Sequence[str] | None, *, resolved: bool
-) -> list[types.CodeAction]:
-    """Return the fixes for findings in a range, and an action that fixes the whole deck.
+) -> Iterator[types.CodeAction]:
+    """Yield the fixes for findings in a range, and an action that fixes the whole deck.
 
     `only` are the kinds that the editor requests, None for any. If the editor asks for edits later (`resolved`), those
     of the last action are left to `fix_all`: they take as long as several checks.
     """
     document = analysis.document
-    fixes: list[types.CodeAction] = []
     if _asked(types.CodeActionKind.QuickFix.value, only):
-        fixes += _quick_fixes(analysis, Span(document.offset(range_.start), document.offset(range_.end)))
+        yield from _quick_fixes(analysis, Span(document.offset(range_.start), document.offset(range_.end)))
     if _asked(FIX_ALL, only) and any(fix.applicability == "safe" for _, fix in _fixes(analysis)):
         action = types.CodeAction("Fix all findings that have a safe fix", FIX_ALL, data={"uri": document.uri})
         if not resolved:
             action.edit = fix_all(analysis)
-        fixes.append(action)
-    return fixes
+        yield action
 
 
 def _asked(kind: str, kinds: Sequence[str] | None) -> bool:

@@ -305,7 +305,8 @@ def _fixes(server: DeckServer) -> None:
         if analysis is None:
             return []
         context, resolved = params.context, server.resolves_edits
-        return await server.aside(lambda: findings.actions(analysis, params.range, context.only, resolved=resolved))
+        asked = params.range, context.only
+        return await server.aside(lambda: list(findings.actions(analysis, *asked, resolved=resolved)))
 
     @server.feature(types.CODE_ACTION_RESOLVE)
     async def resolve(action: types.CodeAction) -> types.CodeAction:
