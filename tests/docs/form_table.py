@@ -11,7 +11,7 @@ from mudline.basics.quantities import ELEMENTS, LINES, NODES, Quantity
 from mudline.checks.output import TEXT, TEXT_SUMMARY, form_module, form_names
 from mudline.model.results.cases import CASES
 from mudline.model.results.forms import FORMS
-from mudline.tools.archive.tables import TABLES, columns_of
+from mudline.tools.archive.rows import TABLES, columns_of
 from tests.docs.marking import marked
 
 _ROOT = Path(__file__).parents[2]

@@ -23,9 +23,8 @@ from pygls.io_ import run_async
 import mudline
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select
-from mudline.tools.lsp.documents import OpenDocument
-from mudline.tools.lsp.server import DeckServer
-from mudline.tools.lsp.serving import quiet_logs, register
+from mudline.tools.lsp.decks import OpenDocument
+from mudline.tools.lsp.server import DeckServer, quiet_logs, register
 
 _PATIENCE = 60.0
 """Seconds of a session: an answer that never comes would be waited for without end."""

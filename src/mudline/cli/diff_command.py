@@ -27,8 +27,7 @@ from mudline.cli.streams import emit, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckStatus
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
-from mudline.editing.comparison.model import Difference, Value
-from mudline.editing.comparison.sets import spans_of, text_of
+from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
 from mudline.language.deck.loading import load_bytes
 
 if TYPE_CHECKING:  # rich is imported where there is a terminal or colour

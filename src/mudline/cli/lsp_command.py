@@ -21,6 +21,6 @@ def command() -> int:
         return WRONG_USAGE
     if sys.stdin.isatty():
         notify("lsp is started by an editor, which talks to it; Ctrl-C ends it")
-    from mudline.tools.lsp.serving import serve  # noqa: PLC0415 - needs the extra `lsp`
+    from mudline.tools.lsp.server import serve  # noqa: PLC0415 - needs the extra `lsp`
 
     return serve()

@@ -20,8 +20,7 @@ from mudline.cli.many_files import each_deck
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
-from mudline.editing.assignment.conditions import ConditionError, parse_condition
-from mudline.editing.assignment.fields import FieldTarget, target_of
+from mudline.editing.assignment.fields import ConditionError, FieldTarget, parse_condition, target_of
 from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import load_bytes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mudline.editing.assignment.conditions import ConditionError, parse_condition
+from mudline.editing.assignment.fields import ConditionError, parse_condition
 from mudline.editing.assignment.paths import PathError
 from mudline.language.deck.loading import load_bytes
 from tests.editing.assignment.test_assigning import TWO_SETS

@@ -147,7 +147,7 @@ def laid_out(rows: WordRows | NumberRows, row: type[Row], *others: WordRows | Nu
     columns = Columns(kind(row))
     for part in (rows, *others):
         part.measure(columns)
-    return rows.lines(columns.shapes())
+    return rows.lines([column.shape() for column in columns.columns])
 
 
 _fields = st.one_of(numbers, numbers, st.just(""), st.just("1" * 40), st.sampled_from(["0", "1.5", "-2E+3", "+.5d0"]))

@@ -8,8 +8,7 @@ import pytest
 
 from mudline.editing.migration import migrating
 from mudline.editing.migration.migrating import Verification, migrate, verify
-from mudline.editing.migration.rewriting import Rewriting, rewrite
-from mudline.language.deck.model import Deck
+from mudline.editing.migration.rewriting import MigrationRewriter
 from mudline.language.diagnostics import DeckError, Span
 from mudline.language.syntax.edits import TextEdit
 from mudline.model.curves import ForceCurve
@@ -31,13 +30,15 @@ TEXT = f"{PIPE_WITH_SETS}*OCEAN\n 500.0, 1025.0, 9.81\n{SURFACE}$LOAD CASE\n*ANA
 def test_a_rewriting_that_changes_more_is_refused(
     monkeypatch: pytest.MonkeyPatch, old: str, new: str, fault: str
 ) -> None:
-    def wrong(deck: Deck, unused: set[object]) -> Rewriting:
-        made = rewrite(deck, unused)  # type: ignore[arg-type] # passed on
+    rewrite = MigrationRewriter.rewrite
+
+    def wrong(rewriter: MigrationRewriter) -> tuple[list[TextEdit], dict[str, bytes]]:
+        edits, files = rewrite(rewriter)
         start = TEXT.index(old)
-        return made._replace(edits=[*made.edits, TextEdit(Span(start, start + len(old)), new)])
+        return [*edits, TextEdit(Span(start, start + len(old)), new)], files
 
     assert migrate(deck_of(TEXT)).replaced == {"ELASTIC SURFACE": 1}
-    monkeypatch.setattr(migrating, "rewrite", wrong)
+    monkeypatch.setattr(MigrationRewriter, "rewrite", wrong)
     with pytest.raises(DeckError) as caught:
         migrate(deck_of(TEXT))
     line = TEXT[: TEXT.index("*ELASTIC")].count("\n") + 1

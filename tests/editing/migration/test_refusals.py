@@ -153,7 +153,7 @@ def test_default_lengths_of_the_unit_system_are_no_obstacle() -> None:
 
 def test_names_of_curves() -> None:
     names = ["Clay", "clay", "12", "1e5", "nan", "=[x]", "CLAY curve", "Sand", "3 m"]
-    found = curve_names(names, ["SAND", "12 curve"])
+    found = list(curve_names(names, ["SAND", "12 curve"]))
     assert found == [
         "Clay",
         "clay curve",

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from mudline.cli import index_command
-from mudline.tools.archive.tables import TABLES
+from mudline.tools.archive.rows import TABLES
 from mudline.tools.running import executors
 from tests.cli.runner import run
 from tests.tools.archive.trial import ask, contents, deck, index, summary, write

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from mudline.tools.archive.tables import TABLES
+from mudline.tools.archive.rows import TABLES
 from tests.cli.runner import Outcome, run
 
 LINE = """\

@@ -44,6 +44,6 @@ def test_the_file_of_the_seabed_is_where_the_deck_has_it(tmp_path: Path) -> None
     model = model_of(deck.replace(" 11, 0.0, 50.0", f" 11, {50.0 * tan(slope)!r}, 50.0"))
     (line,) = run(model, tmp_path, 20.0)["lines"]
     x, y, z = np.array(line["places"])[1:-1].T
-    sunk = (model.mudline(x, y) - z) * cos(slope)
+    sunk = (model.levels(x, y) - z) * cos(slope)
     assert sunk == pytest.approx(np.full(len(x), WEIGHT * cos(slope) / 20000.0), rel=0.2)
     assert sum(line["forces"]) == pytest.approx(WEIGHT * 45.0 / cos(slope), rel=0.05)

@@ -120,7 +120,7 @@ def test_the_grid_is_the_seabed_of_the_deck_below_the_line(bed: str, tmp_path: P
     points = np.array([row.split() for row in rows], dtype=np.float64)
     assert head == f"{len(x)} {len(y)}"
     assert len(points) == len(x) * len(y)
-    assert model.mudline(points[:, 0], points[:, 1]) == pytest.approx(points[:, 2])
+    assert model.levels(points[:, 0], points[:, 1]) == pytest.approx(points[:, 2])
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PROFILE")
     assert entry.status is (Outcome.APPROXIMATED if "10.0" in bed else Outcome.CARRIED)
     assert ["my_deck_v2-seabed.txt", "SeafloorFile"] in tables(files["my deck.v2.txt"])["OPTIONS"]

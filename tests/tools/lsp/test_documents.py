@@ -9,7 +9,7 @@ from lsprotocol import types
 
 from mudline.language.diagnostics import Span
 from mudline.language.syntax.edits import TextEdit, apply_edits
-from mudline.tools.lsp.documents import OpenDocument, characters_of, file_of
+from mudline.tools.lsp.decks import OpenDocument, characters_of, file_of
 
 TEXT = "$MODEL\r\n*NODE\tä\n 1, 0.0 C 😋 x\r 2, ü\n"
 LETTERS = st.text(alphabet="ab\r\n\täß😋,1", max_size=12)

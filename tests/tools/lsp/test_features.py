@@ -7,7 +7,7 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 
 from mudline.editing.formatting.document import formatted
-from mudline.tools.lsp.colours import LEGEND
+from mudline.tools.lsp.structure import LEGEND
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 from tests.tools.lsp.editor import Editor, applied, document
 

@@ -134,7 +134,7 @@ def test_a_long_table_stays_usable_and_its_limits_are_said_once(client: RawClien
 
 
 def test_a_text_beyond_the_limit_is_not_checked(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.tools.lsp.documents.LARGEST_OPEN", 10)
+    monkeypatch.setattr("mudline.tools.lsp.decks.LARGEST_OPEN", 10)
     decks = Decks()
     decks.open("untitled:deck", "$MODLE\n*OCAEN\n", 1, "mudline")
     found = decks.analysis("untitled:deck")

@@ -97,14 +97,14 @@ def _migration(context: LintContext) -> Repair | None:
         refusals,
         surfaces,
     )
-    from mudline.editing.migration.rewriting import rewrite, unused_definitions  # noqa: PLC0415 - as above
+    from mudline.editing.migration.rewriting import MigrationRewriter, unused_definitions  # noqa: PLC0415 - as above
 
     continued_by, extended = continuations_beside(deck) if context.fixing else ([], False)
     profile = any(surface.profile is not None for _, surface in surfaces(deck))
     if profile or any(refusals(deck, context.scene, continued_by)):
         return None
     unused = unused_definitions(context.scene, extended=extended)
-    edits = with_line_ends(text.source, rewrite(deck, unused).edits)
+    edits = with_line_ends(text.source, MigrationRewriter(deck, unused).rewrite()[0])
     return Repair("unsafe", "write the newer keywords", tuple((edit.span, edit.text) for edit in edits))
 
 

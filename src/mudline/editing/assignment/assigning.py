@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import islice
-from typing import cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from mudline.basics.arguments import ArgumentKindError
 from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
-from mudline.basics.spelling import nearest
 from mudline.editing.assignment.fields import FieldTarget, FieldValue, blocks_of, target_of, values_of
 from mudline.editing.assignment.paths import Assignment, WrittenOperand, parse_path
 from mudline.language.codes.fields import SYN003
@@ -24,6 +22,7 @@ from mudline.language.diagnostics import Diagnostic, Problem, Severity, Where
 from mudline.language.keywords.contents import range_fault
 from mudline.language.keywords.model import Part, record_schema
 from mudline.language.keywords.table import Table
+from mudline.language.keywords.text import suggestion
 from mudline.language.keywords.values import Equation, Kind
 from mudline.language.syntax.edits import TextEdit, edited_bytes, replacement_in_layout
 from mudline.language.syntax.source import Source
@@ -41,8 +40,7 @@ class AssignmentError(ValueError):
         super().__init__(message)
 
 
-@dataclass(frozen=True, slots=True)
-class Assigned:
+class Assigned(NamedTuple):
     """Edits that set a value.
 
     Attributes:
@@ -70,8 +68,7 @@ def assigned(deck: Deck, assignment: Assignment, target: FieldTarget, units: str
         if next(values_of(deck, target), None) is None:
             return None
         expected = " or ".join(dict.fromkeys(_kinds(target)))
-        near = nearest(assignment.value, {choice for field in target.fields for choice in field.slot.choices})
-        hint = f" (did you mean {near}?)" if near else ""
+        hint = suggestion(assignment.value, {choice for field in target.fields for choice in field.slot.choices})
         raise AssignmentError(f"{target.path} cannot be {assignment.value!r}: expected {expected}{hint}")
     current = _the_one(deck, target)
     if current is None:

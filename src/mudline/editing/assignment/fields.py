@@ -1,20 +1,30 @@
-"""Fields that a path names, and their values in a deck."""
+"""Fields that a path names, their values in a deck, and conditions such as `OCEAN.depth > 100`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+import operator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import islice
-from typing import Any, NamedTuple
+from types import MappingProxyType
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mudline.basics.limits import LISTED
-from mudline.basics.spelling import edits, nearest
-from mudline.editing.assignment.paths import FieldPath, PathError, Selector, WrittenOperand, folded_name
+from mudline.basics.spelling import equally_near
+from mudline.editing.assignment.paths import (
+    FieldPath,
+    PathBuilder,
+    PathError,
+    Selector,
+    WrittenOperand,
+    folded_name,
+    parsed,
+)
 from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import NoValueError, Parameters
 from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
@@ -50,8 +60,7 @@ class DeclaredField(NamedTuple):
         return self.slot.kind in (Kind.NAME, Kind.TITLE, Kind.REAL_OR_NAME)
 
 
-@dataclass(frozen=True, slots=True)
-class FieldTarget:
+class FieldTarget(NamedTuple):
     """A keyword and its fields that a path names, as far as they accept the value to be set or compared."""
 
     path: FieldPath
@@ -74,8 +83,12 @@ def target_of(path: FieldPath, operand: WrittenOperand | None) -> FieldTarget:
     an operand, fields of several values are chosen.
     """
     blocks = catalogue.declarations(path.keyword)
+    if not blocks and catalogue.sections_of(path.keyword) is not None:
+        raise PathError(f"the lines of *{path.keyword} are passed through unchanged: no value in them can be named")
     if not blocks:
-        raise PathError(_unknown_keyword(path.keyword))
+        near = catalogue.suggest_keyword(path.keyword)
+        hint = f": did you mean {near}?" if near else ": see docs/keywords.md"
+        raise PathError(f"*{path.keyword} is not a known keyword{hint}")
     known = [field for block in blocks for field in declared_fields(block) if field.whole is (operand is None)]
     named = [field for field in known if _ends_with(field, path.names)]
     if not named:
@@ -141,13 +154,6 @@ def _ends_with(field: DeclaredField, names: Sequence[str]) -> bool:
     return all(folded_name(own) == name for own, name in zip(between, before, strict=True))
 
 
-def _unknown_keyword(keyword: str) -> str:
-    if catalogue.sections_of(keyword) is not None:
-        return f"the lines of *{keyword} are passed through unchanged: no value in them can be named"
-    near = catalogue.suggest_keyword(keyword)
-    return f"*{keyword} is not a known keyword" + (f": did you mean {near}?" if near else ": see docs/keywords.md")
-
-
 def _unknown_field(path: FieldPath, known: Sequence[DeclaredField]) -> str:
     # as in a path, without the list of records at the beginning
     names = dict.fromkeys(".".join(field.names[1:] or field.names) for field in known)
@@ -157,12 +163,8 @@ def _unknown_field(path: FieldPath, known: Sequence[DeclaredField]) -> str:
 
 
 def _hint(word: str, known: set[str]) -> str:
-    near = nearest(word, known)
-    if not near:
-        return ""
-    most = edits(folded_name(word), near, 2)
-    as_near = sorted(name for name in known if edits(folded_name(word), name, 2) == most)
-    return f": did you mean {' or '.join(as_near)}?"
+    near = sorted(equally_near(word, known))
+    return f": did you mean {' or '.join(near)}?" if near else ""
 
 
 # ------------------------------------------------------------------------------------------------ values of a deck
@@ -184,7 +186,8 @@ def _values(parts: list[Part], where: Where, field: DeclaredField, selectors: Se
         inner: Any = getattr(part, slot.name, None)
         place = where.inside(index if isinstance(part, ListRow) else name)
         if len(parts) == len(field.names):
-            if (field.whole or not isinstance(inner, Part | list | Table)) and _selected(parts, selectors):
+            single = not isinstance(inner, Part | list | Table)
+            if (field.whole or single) and all(_fits(parts, selector) for selector in selectors):
                 yield FieldValue(place, inner, field, part)
         elif isinstance(inner, Table):
             yield from _cells(inner, slot, parts, place, field, selectors)
@@ -196,12 +199,8 @@ def _values(parts: list[Part], where: Where, field: DeclaredField, selectors: Se
                     yield from _values([*parts, item], place.inside(number), field, selectors)
 
 
-def _selected(parts: Sequence[Part], selectors: Iterable[Selector]) -> bool:
-    """Return True if each selector matches the innermost of nested parts that has its field."""
-    return all(_fits(parts, selector) for selector in selectors)
-
-
 def _fits(parts: Sequence[Part], selector: Selector) -> bool:
+    """Return True if a selector matches the innermost of nested parts that has its field."""
     for part in reversed(parts):
         slots = record_schema(type(part)).slots
         for slot in slots if selector.name else [slot for slot in slots if slot.kind is Kind.NAME][:1]:
@@ -233,10 +232,12 @@ def _cells(
             if selector.name in _names_of(column):
                 outside.discard(selector)
                 chosen &= _rows_with(table, index, selector.value)
-    if field.column is None or not _selected(parts, outside):
+    if field.column is None or not all(_fits(parts, selector) for selector in outside):
         return
-    for row in np.flatnonzero(chosen):
-        yield FieldValue(where.inside(int(row), field.column), cell(table, int(row), field.column), field, table)
+    for row in np.flatnonzero(chosen).tolist():
+        value = table.cell(row, field.column) if field.column < table.lengths[row] else None
+        missing = isinstance(value, float) and np.isnan(value)
+        yield FieldValue(where.inside(row, field.column), None if missing else value, field, table)
 
 
 def _rows_with(table: Table, column: int, operand: WrittenOperand) -> NDArray[np.bool_]:
@@ -247,7 +248,67 @@ def _rows_with(table: Table, column: int, operand: WrittenOperand) -> NDArray[np
     return matches
 
 
-def cell(table: Table, row: int, column: int) -> float | str | None:
-    """Return the value of a table cell; None if the row ends before it, or the field is empty."""
-    value = table.cell(row, column) if column < table.lengths[row] else None
-    return None if isinstance(value, float) and np.isnan(value) else value
+# --------------------------------------------------------------------------------------------- conditions on values
+
+_ORDER: Mapping[str, Callable[[float, float], bool]] = MappingProxyType(
+    {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
+)
+_Holds = Callable[[Deck, Parameters], bool]
+
+
+class ConditionError(Exception):
+    """Reason why a condition cannot be decided for a deck."""
+
+
+def parse_condition(text: str) -> Callable[[Deck], bool]:
+    """Return a condition as a predicate: comparisons of fields with numbers or texts, joined by and, or, not.
+
+    A comparison holds if any value at its path satisfies it, and never if the deck has no such value. Raises PathError.
+    The predicate raises ConditionError for an equation without a value.
+    """
+    holds = cast("_Holds", parsed(text, "condition", _ConditionBuilder))
+    return lambda deck: holds(deck, Parameters(deck))
+
+
+class _ConditionBuilder(PathBuilder):
+    def comparison(self, parts: list[Any]) -> _Holds:
+        """Return a comparison; texts have no order."""
+        path, written, value = parts
+        operand = WrittenOperand.of(value)
+        if written in _ORDER and operand.number is None:
+            raise PathError(f"{path} {written} {value}: a text is compared by == or !=, an order needs a number")
+        target = target_of(path, operand)
+
+        def fits(candidate: FieldValue, parameters: Parameters) -> bool:
+            found = _evaluated(candidate, path, parameters)
+            if found is None:
+                return False
+            if compare := _ORDER.get(written):
+                return isinstance(found, int | float) and operand.number is not None and compare(found, operand.number)
+            return equals(found, operand) is (written in ("=", "=="))
+
+        return lambda deck, parameters: any(fits(each, parameters) for each in values_of(deck, target))
+
+    def negated(self, parts: list[_Holds]) -> _Holds:
+        """Return a negation."""
+        (holds,) = parts
+        return lambda *deck: not holds(*deck)
+
+    def conjunction(self, parts: list[_Holds]) -> _Holds:
+        """Return conditions joined by and."""
+        return lambda *deck: all(holds(*deck) for holds in parts)
+
+    def disjunction(self, parts: list[_Holds]) -> _Holds:
+        """Return conditions joined by or."""
+        return lambda *deck: any(holds(*deck) for holds in parts)
+
+
+def _evaluated(field_value: FieldValue, path: FieldPath, parameters: Parameters) -> float | str | None:
+    value = field_value.value
+    if not isinstance(value, Equation):
+        return value
+    try:
+        return parameters.evaluate(value, field_value.where)
+    except NoValueError as error:
+        why = f": {error}" if str(error) else ""
+        raise ConditionError(f"{path} is given by an equation without a value, {value}{why}") from error

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 from lark import Lark, Token, Transformer, UnexpectedInput, v_args
 from lark.exceptions import VisitError
@@ -20,8 +20,7 @@ class PathError(ValueError):
     """Invalid path, value or condition; the message says what to write."""
 
 
-@dataclass(frozen=True, slots=True)
-class WrittenOperand:
+class WrittenOperand(NamedTuple):
     """A text of the command line, and its number if it is a number."""
 
     text: str
@@ -36,8 +35,7 @@ class WrittenOperand:
         return cls(text, read_number(text))
 
 
-@dataclass(frozen=True, slots=True)
-class Selector:
+class Selector(NamedTuple):
     """Selection of records: `[set=TDZ]` by the value of a field, `[TDZ]` by their set or name."""
 
     name: str
@@ -58,8 +56,7 @@ class FieldPath:
         return self.written
 
 
-@dataclass(frozen=True, slots=True)
-class Assignment:
+class Assignment(NamedTuple):
     """A field and its new value, as written into the deck."""
 
     path: FieldPath

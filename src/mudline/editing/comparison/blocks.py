@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
+from itertools import takewhile
 from typing import NamedTuple, TypeAlias, cast
 
 from mudline.basics.limits import MOST_MATCHED
@@ -17,7 +18,7 @@ from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.keywords.writer import field_text, joined
 
-_KEYS = ("set", "name", "curve")
+_KEYS = {"set", "name", "curve"}
 
 
 class ComparedValue(NamedTuple):
@@ -36,20 +37,20 @@ def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
     return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
 
 
-def record_values(side: Side, record: Record, where: Where) -> Flat:
-    """Return the values of one record of an element, without the name of the record."""
+def record_values(side: Side, record: Record, where: Where) -> dict[str, object]:
+    """Return the values of one record of an element by path, without the name of the record."""
     flattening = _Flattening(side, later_wins=True)
     key = key_slot(type(record))
     values: Flat = {}
     flattening.part(record, where, "", values, leave_out=key.name if key else "")
-    return values
+    return {path: entry.shown for path, entry in values.items()}
 
 
 def key_slot(record: type[Record]) -> FieldSpec | None:
     """Return the field that identifies a record of a list: its set, or its own name."""
     own = (None, Names.SET)
     slots = (slot for slot in record_schema(record).slots if not slot.row and not slot.many and slot.about.names in own)
-    return next((s for s in slots if s.kind is Kind.NAME and {s.json, s.key.casefold()} & set(_KEYS)), None)
+    return next((s for s in slots if s.kind is Kind.NAME and {s.json, s.key.casefold()} & _KEYS), None)
 
 
 def _identity(record: Record) -> str | None:
@@ -73,7 +74,7 @@ class _Flattening:
         flat: Flat = {}
         carried: dict[str, ComparedValue] = {}
         for where, block in blocks:
-            lists = [slot for slot in record_schema(type(block)).slots if self._keyed(slot)]
+            lists = [slot for slot in record_schema(type(block)).slots if _is_keyed(slot)]
             own: Flat = {}
             self.part(block, where, "", own, leave_out=lists[0].name if lists else "")
             if not lists:  # the values of a second block get its number
@@ -106,12 +107,7 @@ class _Flattening:
             for index, item in enumerate(value):
                 self._value(item, slot, where.inside(index), f"{path}/{index + 1}", flat)
         else:
-            flat[path] = self._scalar(value, where)
-
-    def _scalar(self, value: object, where: Where) -> ComparedValue:
-        if isinstance(value, float | int):
-            return ComparedValue(plain(value), value, where)
-        return ComparedValue(str(value), folded(str(value)), where)
+            flat[path] = _scalar(value, where)
 
     def _records(
         self, records: list[Record], where: Where, slot: FieldSpec, prefix: str, flat: Flat, shared: Flat
@@ -127,7 +123,7 @@ class _Flattening:
             if record.sticky:
                 sticky = getattr(record, record.sticky, None) or sticky
                 declared = next(s for s in record_schema(type(record)).slots if s.name == record.sticky)
-                values[f"{path}/{declared.json}"] = self._scalar(sticky or declared.about.default, place)
+                values[f"{path}/{declared.json}"] = _scalar(sticky or declared.about.default, place)
             self.part(record, place, f"{path}/", values, leave_out=key.name if key else "")
             flat[path] = ComparedValue(None, None, place)
             flat |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
@@ -144,9 +140,15 @@ class _Flattening:
         count = self.counts[start + title] = self.counts.get(start + title, 0) + 1
         return title if count == 1 else f"{title}#{count}"
 
-    @staticmethod
-    def _keyed(slot: FieldSpec) -> bool:
-        return slot.many and bool(slot.record) and all(key_slot(record) for record in slot.record.values())
+
+def _is_keyed(slot: FieldSpec) -> bool:
+    return slot.many and bool(slot.record) and all(map(key_slot, slot.record.values()))
+
+
+def _scalar(value: object, where: Where) -> ComparedValue:
+    if isinstance(value, float | int):
+        return ComparedValue(plain(value), value, where)
+    return ComparedValue(str(value), folded(str(value)), where)
 
 
 def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[tuple[str, ComparedValue]]:
@@ -213,7 +215,7 @@ def _group(name: _Name) -> str:
 
 def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
     modelled: dict[_Name, list[tuple[Where, Block]]] = {}
-    titles = _titles(side)
+    titles = list(_titles(side))
     for where, _, block in side.scene.deck.every_block():
         if isinstance(block, Block) and not block.facts.defines:
             name = (titles[where.section], block.keyword)
@@ -221,14 +223,12 @@ def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
     return modelled
 
 
-def _titles(side: Side) -> list[str]:
-    """Return the sections by name; a second load case, which differs from the first, has its number."""
+def _titles(side: Side) -> Iterator[str]:
+    """Yield the sections by name; a second load case, which differs from the first, has its number."""
     counts: dict[str, int] = {}
-    titles: list[str] = []
     for section in side.scene.deck.sections:
         count = counts[section.name] = counts.get(section.name, 0) + 1
-        titles.append(section.name if count == 1 or section.name in _ONE_IN_ALL else f"{section.name} {count}")
-    return titles
+        yield section.name if count == 1 or section.name in _ONE_IN_ALL else f"{section.name} {count}"
 
 
 _Lines = list[tuple[str, Where]]
@@ -238,7 +238,7 @@ def _lines(side: Side) -> dict[_Name, _Lines]:
     """Return the data lines without blanks at their ends; those of blocks of the same keyword follow each other."""
     lines_by_name: dict[_Name, _Lines] = {}
     deck = side.scene.deck
-    titles = _titles(side)
+    titles = list(_titles(side))
     if data := [(line, Where()) for line in _data(deck.preamble)]:
         lines_by_name["", ""] = data
     for i, section in enumerate(deck.sections):
@@ -260,23 +260,21 @@ def _data(lines: list[str]) -> Iterator[str]:
 def _opaque(name: _Name, before: _Lines, after: _Lines, pair: Pair) -> Iterator[Difference]:
     section, keyword = name
     title = _group(name) if keyword else f"${section}" if section else "before the first section"
-    for tag, i, i_end, j, j_end in _changes([line for line, _ in before], [line for line, _ in after]):
+    start = _alike(before, after)
+    before, after = before[start:], after[start:]
+    end = _alike(before[::-1], after[::-1])
+    before, after = before[: len(before) - end], after[: len(after) - end]
+    edits: Sequence[tuple[str, int, int, int, int]] = [("replace", 0, len(before), 0, len(after))]
+    if len(before) + len(after) <= MOST_MATCHED:
+        old, new = ([line for line, _ in lines] for lines in (before, after))
+        edits = SequenceMatcher(None, old, new, autojunk=False).get_opcodes()
+    for tag, i, i_end, j, j_end in edits:
         if tag != "equal":
             yield from (pair.difference(title, f"{title}/lines", held, None) for held in before[i:i_end])
             yield from (pair.difference(title, f"{title}/lines", None, held) for held in after[j:j_end])
 
 
-def _changes(before: list[str], after: list[str]) -> list[tuple[str, int, int, int, int]]:
-    """Return the edits of ranges of lines; long texts are compared only between their equal beginnings and ends."""
-    if before == after:
-        return []
-    shorter = min(len(before), len(after))
-    start = next((i for i, (a, b) in enumerate(zip(before, after, strict=False)) if a != b), shorter)
-    end, most = 0, shorter - start
-    while end < most and before[-1 - end] == after[-1 - end]:
-        end += 1
-    first, second = before[start : len(before) - end], after[start : len(after) - end]
-    if len(first) + len(second) > MOST_MATCHED:
-        return [("replace", start, len(before) - end, start, len(after) - end)]
-    edits = SequenceMatcher(None, first, second, autojunk=False).get_opcodes()
-    return [(tag, i + start, i2 + start, j + start, j2 + start) for tag, i, i2, j, j2 in edits]
+def _alike(before: _Lines, after: _Lines) -> int:
+    """Return the number of equal lines at the beginning of two lists."""
+    same = takewhile(lambda both: both[0][0] == both[1][0], zip(before, after, strict=False))
+    return sum(1 for _ in same)

@@ -3,19 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.basics.limits import MOST_GENERATED
 from mudline.editing.comparison.blocks import blocks, record_values
-from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, Value, plain
-from mudline.editing.comparison.sets import set_differences, spans_of, text_of
+from mudline.editing.comparison.model import (
+    Allowance,
+    Difference,
+    Pair,
+    Side,
+    Spans,
+    Value,
+    plain,
+    spans_of,
+    spans_of_run,
+    text_of,
+    union,
+)
 from mudline.language.deck.parameters import Definition, folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.model import Record
+from mudline.language.keywords.library.mesh import SetGenerate, SetList, SetSubset
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Label
 from mudline.model.contact.input import LawKind
@@ -37,7 +49,7 @@ def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Differe
     pair.after.require()
     of_keywords = list(blocks(pair))  # first, so that differences of elements do not repeat them
     of_files = partial(seabed_points, of_files=True)
-    groups = (_units, _parameters, _nodes, _elements, set_differences, _curves, _by_element, of_files)
+    groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, of_files)
     return [*(difference for differences in groups for difference in differences(pair)), *of_keywords]
 
 
@@ -110,10 +122,9 @@ def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
 def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
     """Yield the differences of rows with a {label} in place of a number."""
     first, second = _label_rows(pair.before, keyword, group), _label_rows(pair.after, keyword, group)
-    for key in sorted(first.keys() - second.keys()):
-        yield pair.difference(group, f"{group}/{first[key][0][0]}", first[key], None)
-    for key in sorted(second.keys() - first.keys()):
-        yield pair.difference(group, f"{group}/{second[key][0][0]}", None, second[key])
+    for key in [*sorted(first.keys() - second.keys()), *sorted(second.keys() - first.keys())]:
+        row, _ = first.get(key) or second[key]
+        yield pair.difference(group, f"{group}/{row[0]}", first.get(key), second.get(key))
 
 
 def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tuple[list[Value], Where]]:
@@ -130,6 +141,57 @@ def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tu
                 key = tuple(str(cell).casefold() for cell in cells)
                 rows_by_key[key] = (cells, where.inside("entries", index, name, row))
     return rows_by_key
+
+
+_SetLine = SetList | SetGenerate | SetSubset
+
+
+def _sets(pair: Pair) -> Iterator[Difference]:
+    """Yield the differences of the members of element sets; ALL has all elements."""
+    first, second = pair.before.scene.set_table.named, pair.after.scene.set_table.named
+    written, others = _lines_of_sets(pair.before), _lines_of_sets(pair.after)
+    for name in dict.fromkeys([*first, *second]):
+        if name == "all":
+            continue
+        old, new = first.get(name), second.get(name)
+        before = text_of(spans_of(pair.before.scene.element_ids[old.elements])) if old else None
+        after = text_of(spans_of(pair.after.scene.element_ids[new.elements])) if new else None
+        if old and new and (old.open or new.open or not (len(old.elements) and len(new.elements))):
+            lines, other_lines = written.get(name, []), others.get(name, [])
+            if lines == other_lines:  # may be ranges of very many numbers
+                continue
+            before, after = _members(lines), _members(other_lines)
+        if before != after:
+            title = old.name if old else new.name if new else name
+            held = ((members, each.where) if each else None for members, each in ((before, old), (after, new)))
+            yield pair.difference("element sets", f"element sets/{title}", *held)
+
+
+def _lines_of_sets(side: Side) -> dict[str, list[_SetLine]]:
+    """Return the lines of sets by name, for sets with elements that the deck does not define."""
+    lines: dict[str, list[_SetLine]] = {}
+    for _, block in side.scene.deck.blocks("ELEMENT SETS"):
+        for entry in block.sets:
+            lines.setdefault(folded(str(entry.name)), []).extend(entry.members)
+    return lines
+
+
+def _members(lines: Sequence[_SetLine]) -> str:
+    """Return the members of a set that its lines name, as text; a GEN= that is invalid names none."""
+    spans, words = list[Spans](), set[str]()
+    for line in lines:
+        match line:
+            case SetSubset():
+                words.add(f"SUBSET={folded(line.subset)}")
+            case SetList():
+                words |= {folded(item) for item in line.elements if isinstance(item, Label)}
+                spans.append(spans_of(np.array([item for item in line.elements if isinstance(item, int)], np.int64)))
+            case SetGenerate():
+                start, end, step = line.generate.start, line.generate.end, line.generate.increment
+                step = 1 if step is None else step
+                if isinstance(start, int) and isinstance(end, int) and isinstance(step, int) and step >= 1:
+                    spans.append(spans_of_run(start, min(end, start + MOST_GENERATED * step), step))
+    return ", ".join(filter(None, [text_of(union(spans)), *sorted(words)]))
 
 
 _KINDS = {False: "curves", True: "curves of sets"}
@@ -169,15 +231,14 @@ def _points_differ(name: str, old: SceneCurve, new: SceneCurve, pair: Pair) -> I
             return
         if same(first[:, 0], second[:, 0]).all():
             for i in np.flatnonzero(~same(first[:, 1], second[:, 1])).tolist():
-                yield pair.difference(
-                    "curves", f"{name}/{first[i, 0].item()!r}", _force(old, first[i]), _force(new, second[i])
-                )
+                held = _force(old, first[i]), _force(new, second[i])
+                yield pair.difference("curves", f"{name}/{first[i, 0].item()!r}", *held)
             return
     mine, theirs = set(map(tuple, first.tolist())), set(map(tuple, second.tolist()))
-    for point in sorted(mine - theirs):
-        yield pair.difference("curves", f"{name}/{point[0]!r}", _force(old, np.array(point)), None)
-    for point in sorted(theirs - mine):
-        yield pair.difference("curves", f"{name}/{point[0]!r}", None, _force(new, np.array(point)))
+    for point in [*sorted(mine - theirs), *sorted(theirs - mine)]:
+        before = _force(old, np.array(point)) if point in mine else None
+        after = _force(new, np.array(point)) if point in theirs else None
+        yield pair.difference("curves", f"{name}/{point[0]!r}", before, after)
 
 
 def _title(curve: SceneCurve) -> str:
@@ -209,17 +270,12 @@ def _force(curve: SceneCurve, point: Floats) -> tuple[Value, Where]:
 Values = dict[str, object]
 
 
-@dataclass(frozen=True, slots=True)
-class EntryMap:
-    """Entries of one kind, the entry of each element (-1 for none), and their places."""
+class EntryMap(NamedTuple):
+    """Entries of one kind, their places, and the entry of each element (-1 for none)."""
 
     entries: Sequence[Values]
     places: Sequence[Where]
     of_element: Indices
-
-    def entry(self, index: int) -> Values:
-        """Return an entry; no values for -1."""
-        return self.entries[index] if index >= 0 else {}
 
 
 def _by_element(pair: Pair) -> Iterator[Difference]:
@@ -251,20 +307,19 @@ def follow_differently(
     if not len(here):
         return
     first, second = read(before), read(after)
-    width = len(second.entries) + 1
+    entries, others = ([*zip([{}, *each.entries], [None, *each.places], strict=True)] for each in (first, second))
+    width = len(others)
     followed = (first.of_element[here] + 1) * width + second.of_element[there] + 1
     for both in np.unique(followed).tolist():
-        i, j = both // width - 1, both % width - 1
-        places = first.places[i] if i >= 0 else None, second.places[j] if j >= 0 else None
-        if tuple(place and place._replace(path=place.path[:2]) for place in places) in pair.reported:  # the records
+        (old, at), (new, there_at) = entries[both // width], others[both % width]
+        if tuple(place and place._replace(path=place.path[:2]) for place in (at, there_at)) in pair.reported:  # records
             continue
-        old, new = first.entry(i), second.entry(j)
         same = pair.tolerance.values
         names = [name for name in dict.fromkeys([*old, *new]) if not same(old.get(name), new.get(name))]
         if not names:
             continue
         elements = _called(before.scene.element_ids[here[followed == both]], descriptions)
-        lines = before.line(places[0]), after.line(places[1])
+        lines = before.line(at), after.line(there_at)
         for name in names:
             where = f"{elements}/{group}" + (f"/{name}" if name else "")
             values = cast("Value", old.get(name)), cast("Value", new.get(name))
@@ -290,17 +345,13 @@ def _law(scene: Scene, grant: SetLaw) -> Values:
     return {} if grant.kind is LawKind.NONE else {"": scene.law_name(grant)}
 
 
-def _record(side: Side, record: Record, where: Where) -> Values:
-    return {path: entry.shown for path, entry in record_values(side, record, where).items()}
-
-
 def _sections(side: Side) -> EntryMap:
     table = side.scene.section_table
     places = [section.where for section in table.sections]
     entries = []
     for where in places:
         block = cast("Any", side.scene.deck.sections[where.section].blocks[where.block])
-        values = _record(side, block.sets[where.path[1]], where)
+        values = record_values(side, block.sets[where.path[1]], where)
         values.pop("option", None)  # the property line has the name of its format
         if block.keyword == "TAPER":
             start = np.flatnonzero(table.of_element == places.index(where))
@@ -329,5 +380,5 @@ def _extension(side: Side, keyword: str) -> EntryMap:
     extension = side.scene.extensions.get(keyword)
     if extension is None:
         return EntryMap([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
-    pairs = zip(extension.entries, extension.places, strict=True)
-    return EntryMap([_record(side, entry, place) for entry, place in pairs], extension.places, extension.of_element)
+    entries = [record_values(side, *pair) for pair in zip(extension.entries, extension.places, strict=True)]
+    return EntryMap(entries, extension.places, extension.of_element)

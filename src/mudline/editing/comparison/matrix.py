@@ -11,8 +11,7 @@ from itertools import accumulate
 import numpy as np
 
 from mudline.basics.display import Cell, DisplayTable, text
-from mudline.editing.comparison.model import Difference, Value
-from mudline.editing.comparison.sets import spans_of, text_of
+from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
 
 MATRIX_FORMAT = "mudline-diff-matrix/1"
 GIVEN = "given"

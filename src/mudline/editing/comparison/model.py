@@ -1,8 +1,9 @@
-"""Differences between two decks, tolerances, and the two compared decks."""
+"""Differences between two decks, tolerances, the two compared decks, and numbers as spans."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, TypeAlias, cast
@@ -66,17 +67,13 @@ class Allowance:
 
     def values(self, first: object, second: object) -> bool:
         """Return True if two values are equal; texts compare without case."""
-        if _is_number(first) and _is_number(second):
+        if isinstance(first, int | float) and isinstance(second, int | float):
             return bool(self.arrays(np.array([first], dtype=np.float64), np.array([second], dtype=np.float64))[0])
         if isinstance(first, list | tuple) and isinstance(second, list | tuple):
             return len(first) == len(second) and all(map(self.values, first, second))
         if isinstance(first, str) and isinstance(second, str):
             return first.casefold() == second.casefold()
         return first == second
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float)
 
 
 def plain(value: float | str | None) -> Value:
@@ -156,3 +153,76 @@ class Pair:
         kind: Kind = "added" if before is None else "removed" if after is None else "changed"
         (old, place), (new, other_place) = before or (None, None), after or (None, None)
         return Difference(kind, group, where, old, new, self.before.line(place), self.after.line(other_place))
+
+
+# ------------------------------------------------------------------------------------------------- numbers as spans
+
+Spans = NDArray[np.int64]
+"""First and last numbers (k, 2) in ascending order, with gaps between the spans."""
+
+NO_SPANS: Spans = np.zeros((0, 2), dtype=np.int64)
+_WORTH_A_RANGE = 5
+"""Least number of equally spaced single numbers that are written as a range with a step."""
+
+
+def spans_of(numbers: NDArray[np.int64]) -> Spans:
+    """Return the spans of numbers in any order."""
+    return _joined(numbers, numbers)
+
+
+def spans_of_run(start: int, end: int, step: int) -> Spans:
+    """Return the spans of start, start + step, ... up to end; the step is at least 1."""
+    if step == 1 and start <= end:
+        return np.array([(start, end)], dtype=np.int64)
+    numbers = np.arange(start, end + 1, step, dtype=np.int64)
+    return np.column_stack([numbers, numbers])
+
+
+def union(parts: Sequence[Spans]) -> Spans:
+    """Return the spans of all numbers in any of several spans."""
+    firsts, lasts = np.concatenate([NO_SPANS, *parts]).T
+    return _joined(firsts, lasts)
+
+
+def text_of(spans: Spans) -> str:
+    """Return spans as a text: `1-20, 25, 31-99 step 2`."""
+    return ", ".join(_pieces(spans))
+
+
+def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
+    """Return spans with gaps between them, from spans that may overlap or touch."""
+    if not len(firsts):
+        return NO_SPANS
+    order = np.argsort(firsts, kind="stable")
+    firsts, reached = firsts[order], np.maximum.accumulate(lasts[order])
+    begins = np.flatnonzero(firsts[1:] - reached[:-1] > 1) + 1
+    ends = np.append(begins - 1, len(firsts) - 1)
+    return np.column_stack([firsts[np.append(0, begins)], reached[ends]])
+
+
+def _pieces(spans: Spans) -> Iterator[str]:
+    """Yield pieces of the text: spans, and runs of equally spaced single numbers."""
+    written = 0
+    for begin, end in _stepped(spans):
+        first = max(begin, written)
+        if end - first + 1 >= _WORTH_A_RANGE:
+            yield from _listed(spans[written:first])
+            start, following = int(spans[first, 0]), int(spans[first + 1, 0])
+            yield f"{start}-{int(spans[end, 0])} step {following - start}"
+            written = end + 1
+    yield from _listed(spans[written:])
+
+
+def _stepped(spans: Spans) -> Iterator[tuple[int, int]]:
+    """Yield first and last index of equally spaced single numbers; neighbouring runs may share a number."""
+    single = spans[:, 0] == spans[:, 1]
+    steps = np.where(single[1:] & single[:-1], spans[1:, 0] - spans[:-1, 0], 0)  # 0 next to several numbers
+    begins = np.append(0, np.flatnonzero(steps[1:] != steps[:-1]) + 1)
+    ends = np.append(begins[1:], len(steps))
+    for at in np.flatnonzero(ends - begins >= _WORTH_A_RANGE - 2).tolist():
+        if steps[begins[at]]:
+            yield int(begins[at]), int(ends[at])
+
+
+def _listed(spans: Spans) -> Iterator[str]:
+    return (str(first) if first == last else f"{first}-{last}" for first, last in spans.tolist())

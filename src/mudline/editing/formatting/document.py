@@ -47,10 +47,9 @@ def formatted(data: bytes, name: str) -> bytes:
         return _document(data, name, form)
     source = Source.from_bytes(data, name)
     deck = read_source(source).require()
-    if any(problem.code is SYN014 for problem in deck.problems):
-        raise FormatError(_CUT_OFF)
-    if any(problem.code is SYN015 for problem in deck.problems):
-        raise FormatError(_COMMAS)
+    for code, why in ((SYN014, _CUT_OFF), (SYN015, _COMMAS)):
+        if any(problem.code is code for problem in deck.problems):
+            raise FormatError(why)
     mark = source.text.find(END_MARK, len(source.text.rstrip(f"{END_MARK} \t\r\n")))
     if mark >= 0:  # end-of-file marks of old systems stay at the end
         laid_out = Source.from_bytes(formatted(source.to_bytes(source.text[:mark]), name), name)

@@ -19,7 +19,6 @@ from mudline.language.syntax.rows import GROUPED, PIECE, line_spans, row_fields
 WIDEST = 32
 """Width above which a field, such as an equation, does not widen its column; later fields of its row shift right."""
 
-_INTEGER = re.compile(r"[-+0-9]*")
 _NUMERIC = frozenset("+-.0123456789")
 
 
@@ -70,11 +69,7 @@ class ColumnShape(NamedTuple):
 
 def _integer(number: str) -> int:
     """Return the length of a number before its decimal point or its exponent."""
-    at = number.find(".")
-    if at < 0:
-        match = _INTEGER.match(number)
-        at = match.end() if match else 0
-    return at
+    return len(number) - len(number.lstrip("-+0123456789"))
 
 
 @dataclass(slots=True)
@@ -122,13 +117,8 @@ class Columns:
             self.columns.append(ColumnWidths(self.kind.is_text(number)))
         return self.columns
 
-    def shapes(self) -> list[ColumnShape]:
-        """Return the shape of each column."""
-        return [column.shape() for column in self.columns]
 
-
-@dataclass(slots=True)
-class WordRows:
+class WordRows(NamedTuple):
     """Rows as lists of fields."""
 
     rows: list[list[str]]
@@ -184,7 +174,7 @@ class NumberRows:
 
     @classmethod
     def read(cls, text: str, most: int) -> Self | None:
-        """Return the rows of whole lines, cut to `most` fields; None for anything but plain numbers."""
+        """Return the rows of whole lines; None for anything but plain numbers, at most `most` in a row."""
         data = text.encode("utf-8")
         if b"\r" in data:
             data = data.replace(b"\r\n", b"\n")
@@ -209,25 +199,7 @@ class NumberRows:
         last = characters[ends] == _LF
         opens = np.flatnonzero(np.concatenate(([True], last[:-1])))
         column = np.arange(len(ends)) - np.repeat(opens, np.diff(opens, append=len(ends)))
-        rows = cls(characters, sizes, lefts, column)
-        if not sizes.all():
-            return rows._cut(ends, opens, most)
-        return None if column.max() >= most else rows
-
-    def _cut(self, ends: _Array, opens: _Array, most: int) -> Self | None:
-        """Return the rows without trailing empty fields; each row begins at one of the fields `opens`.
-
-        `ends` are the places of the commas and LFs among the characters.
-        """
-        filled = np.maximum.reduceat(np.where(self.sizes > 0, self.column, -1), opens)
-        if filled.min() < 0 or filled.max() >= most:
-            return None
-        last = np.repeat(filled, np.diff(opens, append=len(self.column)))
-        kept = self.column <= last
-        characters = self.characters.copy()
-        characters[ends[self.column == last]] = _LF
-        fields = (values[kept] for values in (self.sizes, self.lefts, self.column))
-        return type(self)(np.delete(characters, ends[~kept]), *fields)
+        return cls(characters, sizes, lefts, column) if sizes.all() and column.max() < most else None
 
     def measure(self, columns: Columns) -> None:
         """Widen the columns for the rows."""
@@ -256,11 +228,10 @@ def _without_blanks(codes: NDArray[np.uint8]) -> NDArray[np.uint8] | None:
     """Return the characters that are not blank; None if a field contains blanks."""
     blank = (codes == _BLANK) | (codes == _TAB) | (codes == _CR)
     inked = ~blank & (codes != _COMMA) & (codes != _LF)
-    if (inked[:-1] & blank[1:]).any():  # blanks after a field are rare
-        places = np.flatnonzero(~blank)
-        within = inked[places]
-        if (within[:-1] & within[1:] & (np.diff(places) > 1)).any():
-            return None
+    places = np.flatnonzero(~blank)
+    within = inked[places]
+    if (within[:-1] & within[1:] & (np.diff(places) > 1)).any():
+        return None
     kept: NDArray[np.uint8] = codes[~blank]
     return kept
 
@@ -301,7 +272,7 @@ class AlignedRows:
         for member in self.members:
             for part in self._parts(*member):
                 part.measure(columns)
-        shapes = columns.shapes()
+        shapes = [column.shape() for column in columns.columns]
         for member in self.members:
             yield member[0], "".join(part.lines(shapes) for part in self._parts(*member))
 

@@ -13,7 +13,7 @@ from mudline.editing.comparison.comparing import compare
 from mudline.editing.comparison.decks import representatives, without_spelling
 from mudline.editing.comparison.model import Difference
 from mudline.editing.migration.refusals import misspelt, refusals, superseded_blocks
-from mudline.editing.migration.rewriting import rewrite, unused_definitions
+from mudline.editing.migration.rewriting import MigrationRewriter, unused_definitions
 from mudline.language.codes import MIG001
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.keyword_text import as_text
@@ -71,14 +71,11 @@ def migrate(deck: Deck, continued_by: Sequence[str] = (), *, extended: bool = Fa
         raise DeckError(deck.diagnose(problems))
     if not replaced:
         return Migration(before, before, deck, b"", {}, replaced)
-    text = as_text(deck)
-    rewritten = rewrite(text, unused_definitions(before, extended=extended))
-    origin = text.origin
-    assert isinstance(origin, TextOrigin)  # noqa: S101 - `as_text` returns no other origin
-    content = edited_bytes(origin.source, rewritten.edits)
+    rewriter = MigrationRewriter(as_text(deck), unused_definitions(before, extended=extended))
+    edits, files = rewriter.rewrite()
+    content = edited_bytes(rewriter.origin.source, edits)
     changed = read_source(Source.from_bytes(content, deck.file), units=deck.units)
     changed = replace(changed, source=deck.source, folder=deck.folder)
-    files = {name: lines.encode() for name, lines in rewritten.files.items()}
     after = _checked(deck, before, changed, files)
     if not isinstance(deck.origin, TextOrigin):
         content = dump(changed, form_of(deck.file)).encode()
@@ -206,16 +203,11 @@ def _forces(inputs: Sequence[ContactInput], depths: Floats) -> Iterator[tuple[in
     results = [ContactModel(contact_input).evaluate(positions) for contact_input in inputs]
     for name in ("force", "stiffness", "slope", "ratio"):
         old, new = (getattr(result, name) for result in results)
-        different = ~_same_bits(old, new)
+        different = old.view(np.uint64) != new.view(np.uint64)
         for element in np.flatnonzero(different.any(axis=0)).tolist():
             step = int(np.argmax(different[:, element]))
             values = f"{float(old[step, element])!r} before, {float(new[step, element])!r} after"
             yield element, f"{name} at depth {float(depths[step, element])!r}: {values}"
-
-
-def _same_bits(old: Floats, new: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    same: np.ndarray[tuple[int, ...], np.dtype[np.bool_]] = old.view(np.uint64) == new.view(np.uint64)
-    return same
 
 
 def _contact_input(scene: Scene, chosen: Indices) -> ContactInput:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import chain, count
 from pathlib import PurePath
-from typing import NamedTuple, cast
+from typing import cast
 
 import numpy as np
 
@@ -29,18 +29,6 @@ from mudline.model.scene.sets import ALL
 
 _UNSAFE = re.compile(r"[^\w.-]+")
 _FRICTION = ("longitudinal", "transverse", "longitudinal_mobilisation", "transverse_mobilisation", "constant")
-
-
-class Rewriting(NamedTuple):
-    """Edits of a text, and the content of the files that the new text names, by name."""
-
-    edits: list[TextEdit]
-    files: dict[str, str]
-
-
-def rewrite(deck: Deck, unused: Container[Where]) -> Rewriting:
-    """Return the edits of a deck that was read from text and has no refusals; `unused` definitions are left out."""
-    return _MigrationRewriter(deck, unused).rewrite()
 
 
 def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
@@ -66,16 +54,19 @@ def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
     return unused
 
 
-class _MigrationRewriter:
+class MigrationRewriter:
+    """Rewriting of a deck that was read from text and has no refusals; `unused` definitions are left out."""
+
     def __init__(self, deck: Deck, unused: Container[Where]) -> None:
         self.deck = deck
         self.unused = unused
         self.origin = cast("TextOrigin", deck.origin)
         self.text = self.origin.source.unified
         self.edits: list[TextEdit] = []
-        self.files: dict[str, str] = {}
+        self.files: dict[str, bytes] = {}
 
-    def rewrite(self) -> Rewriting:
+    def rewrite(self) -> tuple[list[TextEdit], dict[str, bytes]]:
+        """Return the edits of the text, and the content of the files that the new text names, by name."""
         curves: list[tuple[Where, int, str]] = []
         for where, block in self.deck.blocks("EMBEDMENT"):
             given = [(where, i, curve.set_name or "ALL") for i, curve in enumerate(cast("Embedment", block).curves)]
@@ -87,12 +78,12 @@ class _MigrationRewriter:
             curves += used
         taken = [curve.name for _, block in self.deck.blocks("SEABED STIFFNESS") for curve in block.curves]
         sets = [set_name for _, _, set_name in curves]
-        names = curve_names(sets, taken)
+        names = list(curve_names(sets, taken))
         for (where, index, _), name in zip(curves, names, strict=True):
             self._curve(where, index, name)
         for where, block in surfaces(self.deck):
             self._surface(where, block, list(zip(sets, names, strict=True)))
-        return Rewriting(self.edits, self.files)
+        return self.edits, self.files
 
     def _edit(self, span: Span, text: str) -> None:
         self.edits.append(TextEdit(span, text))
@@ -155,7 +146,7 @@ class _MigrationRewriter:
         self._head(where, "SEABED PROPERTIES")
         rows = self._rows(where)
         fields = self._fields(where, block)
-        stiffness, others = fields.get("stiffness", ""), _other_lines(fields)
+        stiffness, others = fields.get("stiffness", ""), list(_other_lines(fields))
         type_ = block.facts.seabed_type
         lines = [f"TYPE={type_}"]
         if Where(where.section, where.block) in self.unused:
@@ -189,7 +180,10 @@ class _MigrationRewriter:
             value = self.text[slice(*rows[1])].strip(" \t,")
             self._row(rows[1], f"TYPE=SLOPING\n{indent}SLOPE={value}")
             return
-        name = self._file_name()
+        stem = _UNSAFE.sub("-", PurePath(self.deck.source).stem).strip("-.") or "deck"
+        name, number = f"{stem}-profile.txt", 2
+        while self.deck.folder is not None and (self.deck.folder / name).exists():
+            name, number = f"{stem}-profile-{number}.txt", number + 1
         self._row(rows[1], f"TYPE=2D\n{indent}INTERPOLATION=LINEAR\n{indent}FILE={name}")
         for row in rows[2:]:
             end = self.text.find("\n", row.end)
@@ -197,44 +191,32 @@ class _MigrationRewriter:
         points = zip(block.profile.column(0).tolist(), block.profile.column(1).tolist(), strict=True)
         lines = [f"{y!r}, {elevation!r}\n".upper() for y, elevation in points]
         head = f"C Y, elevation: profile of *{block.keyword} of {self.deck.source}\n"
-        self.files[name] = head + "".join(lines)
-
-    def _file_name(self) -> str:
-        """Return a name for the profile file that no other file next to the deck has."""
-        stem = _UNSAFE.sub("-", PurePath(self.deck.source).stem).strip("-.") or "deck"
-        name, number = f"{stem}-profile.txt", 2
-        while self.deck.folder is not None and (self.deck.folder / name).exists():
-            name, number = f"{stem}-profile-{number}.txt", number + 1
-        return name
+        self.files[name] = (head + "".join(lines)).encode()
 
 
-def _other_lines(fields: Mapping[str, str]) -> list[str]:
-    """Return the lines of a surface next to its stiffness, from fields as written by name; "" for an empty field."""
-    lines: list[str] = []
+def _other_lines(fields: Mapping[str, str]) -> Iterator[str]:
+    """Yield the lines of a surface next to its stiffness, from fields as written by name; "" for an empty field."""
     friction = [fields.get(name, "") for name in _FRICTION]
     if any(friction):
         friction[:2] = [value or "0" for value in friction[:2]]
-        lines.append("FRICTION=" + ", ".join(friction).rstrip(", "))
+        yield "FRICTION=" + ", ".join(friction).rstrip(", ")
     if fields.get("lateral"):
-        lines.append(f"LATERAL={fields['lateral']}")
+        yield f"LATERAL={fields['lateral']}"
     suction = [fields.get("suction_stiffness", ""), fields.get("suction_extent", "")]
     if any(suction):
-        lines.append("SUCTION=" + ", ".join([suction[0] or "0", suction[1]]).rstrip(", "))
-    return lines
+        yield "SUCTION=" + ", ".join([suction[0] or "0", suction[1]]).rstrip(", ")
 
 
-def curve_names(sets: Iterable[str], taken: Iterable[str]) -> list[str]:
-    """Return a name for each curve of `*EMBEDMENT`: that of its set, with ` curve` and a number appended if needed.
+def curve_names(sets: Iterable[str], taken: Iterable[str]) -> Iterator[str]:
+    """Yield a name for each curve of `*EMBEDMENT`: that of its set, with ` curve` and a number appended if needed.
 
     A name that another curve has, in any case of letters, would name both. A name that reads as a number or an equation
     would be taken for a stiffness.
     """
     used = {folded(name) for name in taken}
-    names: list[str] = []
     for name in sets:
         base = f"{name} curve" if reads_as_name(f"{name} curve") else "curve"
         candidates = chain([name, base], (f"{base} {number}" for number in count(2)))
         chosen = next(each for each in candidates if folded(each) not in used and reads_as_name(each))
         used.add(folded(chosen))
-        names.append(chosen)
-    return names
+        yield chosen

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import NamedTuple, cast
 
 from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.outside import without_text
 from mudline.basics.spelling import Effort
 from mudline.editing.variations.names import undefined_parameter, unquoted
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import Parameters, folded, list_items
+from mudline.language.deck.parameters import DEFINING, Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.library.preprocessor import Parameters as ParameterBlock
+from mudline.language.keywords.library.preprocessor import VariedBlock
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.text import shown, suggestion
 from mudline.language.keywords.values import Equation
@@ -25,21 +27,11 @@ from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import LeafKind, canonical_name, parse
 from mudline.model.scene.deck_values import find_file, not_found
 
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.preprocessor import Parameters as Block_
-    from mudline.language.keywords.library.preprocessor import VariedBlock
-
-
-_PLANNING = "PREPROCESSOR"
-"""Section of the keywords that describe the decks; actions do not add or remove them."""
-
-
 Values = Mapping[str, str]
 """Values as written in `*PARAMETERS`, by the name of the parameter there."""
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterTarget:
+class ParameterTarget(NamedTuple):
     """A parameter: its name and the text of its value, both as written, and the place of the value."""
 
     name: str
@@ -65,7 +57,7 @@ class ParameterTargets:
         self._targets: dict[str, ParameterTarget] = {}
         self._effort = Effort()
         for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
-            for index, parameter in enumerate(cast("Block_", block).parameters):
+            for index, parameter in enumerate(cast("ParameterBlock", block).parameters):
                 place = where.inside("parameters", index, "value")
                 self._targets |= {folded(target.name): target for target in self._written(parameter.name, place)}
 
@@ -109,7 +101,7 @@ def with_values(deck: Deck, values: Values) -> Deck:
     The parameters are defined again after all others, as the last definition of a parameter applies.
     """
     where, block = [entry for entry in deck.blocks("PARAMETERS", "PREPROCESSOR") if entry[1].parameters][-1]
-    known = cast("Block_", block).parameters
+    known = cast("ParameterBlock", block).parameters
     more = [known[-1].model_copy(update={"name": name, "value": text}) for name, text in values.items()]
     sections = list(deck.sections)
     blocks = list(sections[where.section].blocks)
@@ -132,21 +124,15 @@ def parameter_field(text: str) -> str | None:
 # -------------------------------------------------------------------------------------------------------------- actions
 
 
-@dataclass(frozen=True, slots=True)
-class Removal:
-    """Blocks to leave out, by section and block."""
-
-    blocks: frozenset[tuple[int, int]]
-
-
-@dataclass(frozen=True, slots=True)
-class Addition:
+class Addition(NamedTuple):
     """Lines to add at the end of a section, each with a LF."""
 
     section: int
     text: str
 
 
+Removal = frozenset[tuple[int, int]]
+"""Blocks to leave out, by section and block."""
 Action = Removal | Addition
 
 
@@ -156,18 +142,18 @@ class RefusedError(Exception):
 
 def action_of(deck: Deck, varied: VariedBlock) -> Action:
     """Return the effect of an ACTION= line on a deck that was read from text; raises RefusedError."""
-    keyword = _keyword(varied)
-    section = _section(deck, varied, keyword)
-    if varied.action == "REMOVE":
-        return _removal(deck, keyword, section)
-    return _addition(deck, varied, keyword, section)
-
-
-def _keyword(varied: VariedBlock) -> str:
     keyword = canonical_name("*" + ",".join(unquoted(word) for word in varied.keyword))
-    if _PLANNING in (catalogue.sections_of(keyword) or ()):
+    if DEFINING in (catalogue.sections_of(keyword) or ()):
         raise RefusedError(f"*{keyword} describes the decks: a variation cannot add or remove it")
-    return keyword
+    section = _section(deck, varied, keyword)
+    if varied.action != "REMOVE":
+        return _addition(deck, varied, keyword, section)
+    blocks = [(where, block.keyword) for where, name, block in deck.every_block() if name == section]
+    gone = Removal((where.section, where.block) for where, name in blocks if name == keyword)
+    if not gone:
+        hint = suggestion(keyword, {name for _, name in blocks})
+        raise RefusedError(f"${section} has no *{keyword}{hint} that could be removed")
+    return gone
 
 
 def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
@@ -184,15 +170,6 @@ def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
     if name not in there:
         raise RefusedError(f"the deck has no section ${name}{suggestion(name, there)} for *{keyword}")
     return name
-
-
-def _removal(deck: Deck, keyword: str, section: str) -> Removal:
-    blocks = [(where, block.keyword) for where, name, block in deck.every_block() if name == section]
-    gone = frozenset((where.section, where.block) for where, name in blocks if name == keyword)
-    if not gone:
-        hint = suggestion(keyword, {name for _, name in blocks})
-        raise RefusedError(f"${section} has no *{keyword}{hint} that could be removed")
-    return Removal(gone)
 
 
 def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Addition:

@@ -13,7 +13,7 @@ from typing import cast
 
 from mudline.basics.overwriting import is_read
 from mudline.basics.short_repr import short_repr
-from mudline.editing.variations.cases import Action, ParameterTargets, Removal
+from mudline.editing.variations.cases import Action, Addition, ParameterTargets
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
@@ -99,12 +99,8 @@ def companions(deck: Deck) -> list[str]:
 
     Files of `$PREPROCESSOR` are left out: they are needed to make the new decks, not by the new decks.
     """
-    existing: dict[str, None] = {}
-    for written in _written(deck):
-        name = file_name(written)
-        if name and not path_fault(name) and find_file(deck.folder, name):
-            existing[name] = None
-    return list(existing)
+    names = map(file_name, _written(deck))
+    return list(dict.fromkeys(name for name in names if name and not path_fault(name) and find_file(deck.folder, name)))
 
 
 def _written(deck: Deck) -> Iterator[str]:
@@ -174,11 +170,8 @@ class ExpansionPlan:
 
     def edits(self, planned: PlannedDeck) -> list[TextEdit]:
         """Return the edits of the source's text that give a planned deck."""
-        edits: list[TextEdit] = []
-        for name, value in planned.values.items():
-            target = self.targets.target(name)
-            if value != target.text:
-                edits.append(TextEdit(target.span, value))
+        targets = ((self.targets.target(name), value) for name, value in planned.values.items())
+        edits = [TextEdit(target.span, value) for target, value in targets if value != target.text]
         origin = cast("TextOrigin", self.deck.origin)
         text, sections = origin.source.unified, origin.tree.sections
         gone = {
@@ -189,8 +182,8 @@ class ExpansionPlan:
             if (declared := catalogue.block_class(section.name, block.name)) and declared.facts.plans_decks
         }
         for action in planned.actions:
-            if isinstance(action, Removal):
-                gone |= action.blocks
+            if not isinstance(action, Addition):
+                gone |= action
                 continue
             raw = sections[action.section]  # lines are added after the last line of a section that is not a comment
             head = cast("Leaf", raw.head)
@@ -274,11 +267,7 @@ def _conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> Iterator
                 yield f"{path.as_posix()}: this run reads the file, which is not overwritten"
             elif not force:
                 yield f"{path.as_posix()}: exists already: --force overwrites it"
-        elif (file := _file_above(folder, path)) is not None:
-            yield f"{path.as_posix()}: {file.as_posix()} is a file, not a folder"
-
-
-def _file_above(folder: Path, path: Path) -> Path | None:
-    """Return a file where a folder is needed, or None."""
-    above = (parent for parent in path.parents if parent != folder and folder in parent.parents)
-    return next((parent for parent in above if parent.exists() and not parent.is_dir()), None)
+        else:
+            above = (parent for parent in path.parents if parent != folder and folder in parent.parents)
+            for file in (parent for parent in above if parent.exists() and not parent.is_dir()):
+                yield f"{path.as_posix()}: {file.as_posix()} is a file, not a folder"

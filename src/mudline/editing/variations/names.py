@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.basics.spelling import Effort, nearest
@@ -10,7 +10,7 @@ from mudline.language.codes.lines import SYN009, SYN010
 from mudline.language.codes.references import REF001, REF013
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded
-from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.text import hint, shown, suggestion
 from mudline.language.keywords.values import Names, is_unknown, known_name
@@ -104,19 +104,14 @@ def misspelt_actions(deck: Deck) -> Iterator[Problem]:
                 keyword = canonical_name("*" + ",".join(map(unquoted, words)))
                 section = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
                 place = where.inside("variations", i, "blocks", j)
-                if near := _similar(keyword, catalogue.keywords(), of_keywords):
-                    yield _misspelt(SYN009, f"keyword *{keyword}", near, place.inside("keyword", 0))
-                if near := _similar(section, catalogue.SECTIONS, of_sections):
-                    yield _misspelt(SYN010, f"section ${section}", near, place.inside("section"))
-
-
-def _similar(name: str, known: Collection[str], effort: Effort) -> str:
-    """Return the known name that resembles an unknown name, or ""."""
-    return "" if not name or name in known else nearest(name, known, effort)
-
-
-def _misspelt(code: Code, what: str, near: str, where: Where) -> Problem:
-    return Problem(code, f"{what} is not known{hint(near)}: correct it", None, Severity.WARNING, where)
+                given = [
+                    (SYN009, "keyword *", keyword, catalogue.keywords(), of_keywords, place.inside("keyword", 0)),
+                    (SYN010, "section $", section, catalogue.SECTIONS, of_sections, place.inside("section")),
+                ]
+                for code, what, name, known, effort, at in given:
+                    if name and name not in known and (near := nearest(name, known, effort)):
+                        message = f"{what}{name} is not known{hint(near)}: correct it"
+                        yield Problem(code, message, None, Severity.WARNING, at)
 
 
 def _in_names(deck: Deck) -> Iterator[_Named]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from decimal import Decimal
-from itertools import product
+from itertools import chain, product
 from math import prod
 from pathlib import PurePath
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
@@ -29,13 +29,10 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import NoValueError
 from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import DeckError, Problem, Severity, Where
+from mudline.language.keywords.library.preprocessor import Combination, NamedVariation, ValueRange, VariedParameter
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation
 from mudline.language.syntax.source import Source
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.preprocessor import Combination, NamedVariation, ValueRange, VariedParameter
-
 
 _ENDINGS = (*SUFFIXES, ".json", ".yaml", ".yml")
 """Suffixes of decks; a file name without one gets the suffix of the source."""
@@ -45,8 +42,7 @@ MOST_LOOKED_AT = 1000
 """Number of decks whose names are checked if none is to be written."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cases:
+class Cases(NamedTuple):
     """A variation: names of parameters, a row of their values for each case, and the actions in every case."""
 
     name: str
@@ -55,8 +51,7 @@ class Cases:
     actions: Sequence[Action]
 
 
-@dataclass(frozen=True, slots=True)
-class _CaseGroup:
+class _CaseGroup(NamedTuple):
     """A combination with its variations: a deck for each combination of their cases.
 
     `names` are those that it gives its decks: folder, folder below it, file; None for a name that it does not give.
@@ -66,11 +61,6 @@ class _CaseGroup:
     combination: Combination
     names: Sequence[str | None]
     cases: Sequence[Cases]
-
-    @property
-    def count(self) -> int:
-        """Number of decks."""
-        return prod(len(cases.rows) for cases in self.cases)
 
 
 def plan(deck: Deck) -> ExpansionPlan:
@@ -106,7 +96,7 @@ class _Planner:
         self.problems = [*self.targets.parameters.problems, *self.problems]
         groups = [group for group in self._groups(variations) if self._is_valid(group)]
         self._raise_any()
-        total = sum(group.count for group in groups)
+        total = sum(prod(len(cases.rows) for cases in group.cases) for group in groups)
         if total > MOST_DECKS:
             self._report(f"{total} decks would be written: expected no more than {MOST_DECKS}", groups[-1].where)
         if not groups:
@@ -159,7 +149,14 @@ class _Planner:
                 self._report(f"{shown(target.name)} varies twice in {shown(name)}: keep one of its lines", place)
                 continue
             columns[target.name] = self._values(varied, target, place)
-        self._check_counts(name, columns, where)
+        counts = {len(values) for values in columns.values() if values}
+        if len(counts) > 1:  # all parameters of a variation change together
+            listed = ", ".join(f"PARA={target} has {len(values)}" for target, values in columns.items() if values)
+            message = (
+                f"the parameters of variation {shown(name)} change together and need equally many values: {listed}. "
+                "Put those that vary independently into separate variations"
+            )
+            self._report(message, where)
         rows = list(zip(*columns.values(), strict=False)) if columns else [()]
         actions = list[Action]()
         for at, varied_block in enumerate(variation.blocks):
@@ -168,17 +165,6 @@ class _Planner:
             except RefusedError as reason:
                 self._report(str(reason), where.inside("blocks", at))
         return Cases(name, list(columns), rows, actions)
-
-    def _check_counts(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
-        """Report a problem unless all parameters of a variation, which change together, have equally many values."""
-        counts = {len(values) for values in columns.values() if values}
-        if len(counts) > 1:
-            listed = ", ".join(f"PARA={target} has {len(values)}" for target, values in columns.items() if values)
-            message = (
-                f"the parameters of variation {shown(name)} change together and need equally many values: {listed}. "
-                "Put those that vary independently into separate variations"
-            )
-            self._report(message, where)
 
     def _values(self, varied: VariedParameter, target: ParameterTarget, where: Where) -> list[str]:
         """Return the values as fields of `*PARAMETERS`; an empty list if they are faulty."""
@@ -274,15 +260,16 @@ class _Planner:
         taken.take(MANIFEST, -1)
         faults = 0
         for group in groups:
-            for values in _products(group.cases):
+            parameters = [name for cases in group.cases for name in cases.parameters]
+            for rows in product(*(cases.rows for cases in group.cases)):  # the last variation changes fastest
+                values = dict(zip(parameters, chain.from_iterable(rows), strict=True))
                 number = len(decks)
                 path, fault = self._path(group.names, values, f"{number + 1:0{len(str(total))}d}")
                 names = [cases.name for cases in group.cases]
                 actions = [action for cases in group.cases for action in cases.actions]
-                deck = PlannedDeck(path, unquoted(group.combination.description), names, values, actions)
-                decks.append(deck)
+                decks.append(PlannedDeck(path, unquoted(group.combination.description), names, values, actions))
                 if not fault and (holder := taken.take(path, number)) is not None:
-                    fault = _clash(deck, decks[holder] if holder >= 0 else None)
+                    fault = "is that of the manifest" if holder < 0 else _clash(path, decks[holder])
                 if fault:
                     self._report(f"the deck with {listed(values)}: its name {shown(path)} {fault}", group.where)
                     faults += 1
@@ -321,12 +308,10 @@ class _Planner:
 
     def _readable(self, planned: ExpansionPlan) -> None:
         """Read a deck for each set of actions: the lines that a file adds may be faulty."""
-        tried: set[tuple[int, ...]] = set()
+        first: dict[tuple[Action, ...], PlannedDeck] = {}
         for deck in planned.decks:
-            key = tuple(id(action) for action in deck.actions)
-            if key in tried:
-                continue
-            tried.add(key)
+            first.setdefault(tuple(deck.actions), deck)
+        for deck in first.values():
             content = planned.content(replace(deck, path=""))
             read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
             faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]
@@ -335,22 +320,13 @@ class _Planner:
                 self._report(f"{what}: line {fault.line}: {fault.message}", Where())
 
 
-def _products(variations: Sequence[Cases]) -> Iterator[dict[str, str]]:
-    """Yield the values of every combination of cases; the last variation changes fastest."""
-    names = [name for cases in variations for name in cases.parameters]
-    for rows in product(*(cases.rows for cases in variations)):
-        yield dict(zip(names, (text for row in rows for text in row), strict=True))
-
-
 def listed(values: Values) -> str:
     """Return values as `Offset=-100, Period=08`."""
     return ", ".join(f"{name}={text}" for name, text in values.items()) or "no varied parameter"
 
 
-def _clash(deck: PlannedDeck, holder: PlannedDeck | None) -> str:
-    if holder is None:
-        return "is that of the manifest"
-    same = "" if deck.path == holder.path else f" (as {shown(holder.path)})"
+def _clash(path: str, holder: PlannedDeck) -> str:
+    same = "" if path == holder.path else f" (as {shown(holder.path)})"
     return f"is that of the deck with {listed(holder.values)}{same}: name what differs with %parameter%"
 
 

@@ -20,8 +20,7 @@ import pyarrow.parquet as pq
 
 from mudline.basics.files import replacement, write_atomically
 from mudline.basics.paths import relative_path
-from mudline.tools.archive.rows import Rows
-from mudline.tools.archive.tables import TABLES, columns_of
+from mudline.tools.archive.rows import TABLES, Rows, columns_of
 from mudline.tools.running.remembered import Memory
 
 VIEWS, LOCK, _MEMORY = "archive.duckdb", "mudline.lock", ".known"

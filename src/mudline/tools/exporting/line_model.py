@@ -7,17 +7,18 @@ mudline at X = 0 of the deck is at z = -depth.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import astuple, dataclass
-from itertools import pairwise
-from typing import TYPE_CHECKING, cast
+from collections.abc import Callable, Iterator
+from itertools import groupby, pairwise
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from mudline.basics.quantities import shown
 from mudline.language.diagnostics import Where
+from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
 from mudline.model.contact import ContactResult
 from mudline.model.contact.lines import lines_of
+from mudline.model.contact.seabed import Seabed
 from mudline.model.contact.touchdown import line_summaries
 from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
@@ -29,10 +30,6 @@ from mudline.model.scene.weights import Pipe, contents_case, pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome
 from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
 
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
-    from mudline.model.contact.seabed import Seabed
-
 _ALIKE = 1e-3
 """Share of the longest element by which equal lengths may differ."""
 _AROUND = 5
@@ -42,8 +39,7 @@ _DRAG, _ADDED = 1.2, 1.0
 _UNITS = {"metric": SiFactors(1.0, 1.0), "imperial": SiFactors(FOOT, POUND)}
 
 
-@dataclass(frozen=True, slots=True)
-class End:
+class End(NamedTuple):
     """End of lines: a node that is `held` (degrees of freedom of the deck), moved by a `vessel`, or joins lines."""
 
     node: int
@@ -56,8 +52,7 @@ class End:
         return not self.held & TRANSLATIONS
 
 
-@dataclass(frozen=True, slots=True)
-class PipeSection:
+class PipeSection(NamedTuple):
     """A cross-section with its contents and coefficients, in SI units.
 
     `diameter` is that of contact, `buoyancy` that of the displaced water. `mass` includes the `contents`. Coefficients
@@ -81,8 +76,7 @@ class PipeSection:
     assumed: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LineStretch:
+class LineStretch(NamedTuple):
     """Consecutive elements with one section and one seabed: indices of k + 1 nodes in the model, and k lengths."""
 
     section: int
@@ -96,8 +90,7 @@ class LineStretch:
         return bool(np.ptp(self.lengths) <= _ALIKE * self.lengths.max())
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ExportLine:
+class ExportLine(NamedTuple):
     """A line from one end to the other; `begin` and `end` are indices of the model's ends."""
 
     name: str
@@ -105,21 +98,15 @@ class ExportLine:
     end: int
     stretches: list[LineStretch]
 
-    def pieces(self, key: Callable[[LineStretch], object]) -> list[LineStretch]:
-        """Return the stretches, with consecutive stretches of the same key joined."""
-        joined: list[LineStretch] = []
-        for stretch in self.stretches:
-            last = joined[-1] if joined else None
-            if last is None or key(last) != key(stretch):
-                joined.append(stretch)
-                continue
-            nodes, lengths = np.append(last.nodes, stretch.nodes[1:]), np.append(last.lengths, stretch.lengths)
-            joined[-1] = LineStretch(last.section, last.soil, nodes, lengths)
-        return joined
+    def pieces(self, key: Callable[[LineStretch], object]) -> Iterator[LineStretch]:
+        """Yield the stretches, with consecutive stretches of the same key joined."""
+        for first, *others in (list(alike) for _, alike in groupby(self.stretches, key)):
+            nodes = np.concatenate([first.nodes, *(stretch.nodes[1:] for stretch in others)])
+            lengths = np.concatenate([first.lengths, *(stretch.lengths for stretch in others)])
+            yield LineStretch(first.section, first.soil, nodes, lengths)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LineModel:
+class LineModel(NamedTuple):
     """Lines of a deck; `places` (n, 3) are those of all its nodes, `depth` is the water depth at X = 0.
 
     `soil` is that of most of the pipe around touchdown, for targets with one seabed.
@@ -140,16 +127,12 @@ class LineModel:
     seabed: Seabed | None
     units: SiFactors
 
-    def mudline(self, x: Floats, y: Floats) -> Floats:
-        """Return the elevation z of the seabed; NaN where there is none."""
+    def levels(self, x: Floats, y: Floats) -> Floats:
+        """Return the elevation z of an unbounded seabed: outside the deck's seabed, its lowest known elevation."""
         if self.seabed is None:
             return np.full(np.shape(x), -self.depth)
         size = self.units.length
-        return self.seabed.elevation(np.asarray(x) / size, np.asarray(y) / size) * size - self.depth
-
-    def levels(self, x: Floats, y: Floats) -> Floats:
-        """Return the elevation of an unbounded seabed: outside the deck's seabed, its lowest known elevation."""
-        level = self.mudline(x, y)
+        level = self.seabed.elevation(x / size, y / size) * size - self.depth
         known = level[~np.isnan(level)]
         return np.where(np.isnan(level), known.min() if known.size else -self.depth, level)
 
@@ -169,7 +152,9 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     if units is None:
         raise scene.refusal("the units of this deck are not known: give --units metric or --units imperial")
     _require_elements(scene)
-    around, depth = scene.surroundings, _depth(scene)
+    density, gravity, depth = scene.surroundings
+    if not (depth > 0.0 and gravity > 0.0):
+        raise scene.refusal("a model for another program needs *OCEAN with depth, density and gravity: give it")
     sections, of_element = _sections(scene, units)
     soils, soil_of = soils_of(scene, units)
     positions_used = scene.coordinates if positions is None else positions
@@ -182,9 +167,8 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     lengths = np.bincount(soil_of, scene.length * weights, len(soils))
     soil = soils[int(np.argmax(np.where(carrying, lengths, -1.0)))]
     seabed = None if scene.seabed.kind is SeabedKind.FLAT else made_seabed(scene.seabed)
-    density = around.density * units.mass / units.length**3
-    si = (depth * units.length, density, around.gravity * units.length)
-    values = [value for each in (*map(astuple, sections), *soils) for value in each if isinstance(value, float)]
+    si = (depth * units.length, density * units.mass / units.length**3, gravity * units.length)
+    values = [value for each in (*sections, *soils) for value in each if isinstance(value, float)]
     if not np.isfinite([*values, *si, *places[scene.element_nodes].ravel()]).all():
         raise scene.refusal("a number of the lines is not finite in SI units: correct the largest of the deck")
     for keyword, target in (
@@ -220,14 +204,6 @@ def _require_elements(scene: Scene) -> None:
     if unknown.size:
         message = "the element has no known length, so its line cannot be exported: give coordinates to its nodes"
         raise scene.refusal(message, scene.table.numbered.where(int(unknown[0])))
-
-
-def _depth(scene: Scene) -> float:
-    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
-    depth = number(oceans[-1], "depth") if oceans else math.nan
-    if not (depth > 0.0 and scene.surroundings.gravity > 0.0):
-        raise scene.refusal("a model for another program needs *OCEAN with depth, density and gravity: give it")
-    return depth
 
 
 # ------------------------------------------------------------------------------------------------------- sections
@@ -337,18 +313,19 @@ def _lines(
     held, vessels = held_freedoms(scene, [scene.deck])
     traced = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
     degree = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
-    ends: dict[int, End] = {}
     order: dict[int, int] = {}
+    ends: list[End] = []
     lines: list[ExportLine] = []
 
     def end_of(node: int) -> int:
-        if node not in ends:
+        if node not in order:
             end = End(node, held.get(node, NO_FREEDOMS), node in vessels)
             if end.joins and degree[node] < 2:
                 what = f"node {int(scene.node_ids[node])} ends a line, and nothing in *BOUNDARY holds it along an axis"
                 raise scene.refusal(f"{what}: a free end cannot be exported; hold the node", scene.nodes.where(node))
-            ends[node] = end
-        return order.setdefault(node, len(order))
+            order[node] = len(ends)
+            ends.append(end)
+        return order[node]
 
     for elements, nodes in zip(traced.elements, traced.nodes, strict=True):
         if nodes[0] == nodes[-1]:
@@ -367,8 +344,8 @@ def _lines(
                 for a, b in pairwise(starts)
             ]
             lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))
-    _report_held(scene, report, held, set(ends))
-    return list(ends.values()), lines
+    _report_held(scene, report, held, set(order))
+    return ends, lines
 
 
 # ----------------------------------------------------------------------------------------------------------------- ends

@@ -32,7 +32,7 @@ _GRID = 200
 
 def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the lines of MoorDyn along each line of the model: sections with the same numbers are one line type."""
-    return [line.pieces(lambda each: alike(model, each.section)) for line in model.lines]
+    return [list(line.pieces(lambda each: alike(model, each.section))) for line in model.lines]
 
 
 def alike(model: LineModel, section: int) -> int:

@@ -8,6 +8,7 @@ deck.
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from math import atan2, cos, degrees, hypot, radians
 
 import numpy as np
@@ -52,7 +53,7 @@ Items = dict[str, object]
 
 def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the sections of OrcaFlex along each line of the model: friction belongs to the line type."""
-    return [line.pieces(lambda each: (each.section, each.soil)) for line in model.lines]
+    return [list(line.pieces(lambda each: (each.section, each.soil))) for line in model.lines]
 
 
 def segments(piece: LineStretch) -> int:
@@ -83,17 +84,15 @@ def write(model: LineModel, name: str) -> dict[str, str]:
     return {name: "".join(f"{row}\n" for row in text)}
 
 
-def _rows(items: Items, margin: str) -> list[str]:
-    """Return items as lines; a list of lists is a table, with a line for each of its rows."""
-    rows: list[str] = []
+def _rows(items: Items, margin: str) -> Iterator[str]:
+    """Yield items as lines; a list of lists is a table, with a line for each of its rows."""
     for key, value in items.items():
         if key == "#":
-            rows.append(f"{margin}# {one_line(str(value))}")
+            yield f"{margin}# {one_line(str(value))}"
         elif isinstance(value, list) and value and isinstance(value[0], list):
-            rows += [f"{margin}{key}:", *(f"{margin}  - {_value(row)}" for row in value)]
+            yield from (f"{margin}{key}:", *(f"{margin}  - {_value(row)}" for row in value))
         else:
-            rows.append(f"{margin}{key}: {_value(value)}")
-    return rows
+            yield f"{margin}{key}: {_value(value)}"
 
 
 def _value(value: object) -> str:
@@ -139,16 +138,14 @@ def _line_type(model: LineModel, key: Key, name: str) -> Items:
 def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
     line, parts = model.lines[at], pieces(model)[at]
     ends = [_end(model, line.begin, parts[0]), _end(model, line.end, parts[-1])]
-    nodes = [model.ends[index].node for index in (line.begin, line.end)]
-    ids = [int(model.scene.node_ids[node]) for node in nodes]
-    where = [model.scene.line_of(model.scene.nodes.where(node)) for node in nodes]
-    held = [model.ends[index].held for index in (line.begin, line.end)]
+    both, scene = (model.ends[line.begin], model.ends[line.end]), model.scene
+    nodes = (f"node {scene.node_ids[end.node]}, line {scene.line_of(scene.nodes.where(end.node))}" for end in both)
     sections = [[names[_key(model, each)], float(each.lengths.sum()), float(each.lengths.min())] for each in parts]
     return {
         "Name": line.name,
-        "#": f"from node {ids[0]}, line {where[0]}, to node {ids[1]}, line {where[1]}",
+        "#": f"from {', to '.join(nodes)}",
         _CONNECTION: ends,
-        _BENDING: [["Infinity" if freedoms & {5, 6} else 0.0, None] for freedoms in held],
+        _BENDING: [["Infinity" if end.held & {5, 6} else 0.0, None] for end in both],
         _SECTIONS: sections,
         "IncludedInStatics": "Yes",
     }

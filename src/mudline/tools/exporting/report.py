@@ -171,17 +171,12 @@ def short_name(written: str) -> str:
     return quoted(written if len(written) <= _LETTERS else f"{written[:_LETTERS]}...")
 
 
-@dataclass
 class TargetNames:
     """Names that a target accepts: of `letters`, the content of a character class, each once, up to a length."""
 
-    report: ExportReport
-    letters: str
-    longest: int
-    reserved: Iterable[str] = ()
-
-    def __post_init__(self) -> None:
-        self._taken = {name.casefold() for name in (*_WORDS, *self.reserved)}
+    def __init__(self, report: ExportReport, letters: str, longest: int, reserved: Iterable[str] = ()) -> None:
+        self.report, self.letters, self.longest = report, letters, longest
+        self._taken = {name.casefold() for name in (*_WORDS, *reserved)}
 
     def take(self, written: str, where: Where) -> str:
         """Return the target's name for a name of the deck; a changed name is added to the report."""

@@ -17,8 +17,9 @@ from mudline.model.contact.input import LawKind
 from mudline.model.contact.laws.soil import initial, lift
 from mudline.model.scene.assignments import nodal_stiffness, soil_parameters
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
+from mudline.model.scene.laws import Extension, SeabedResistance
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.resolved import LawArrays, ResolvedDeck
+from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.weights import pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome, short_name
 
@@ -108,8 +109,7 @@ def soils_of(scene: ResolvedDeck, units: SiFactors) -> tuple[list[ExportSoil], I
     own = (scene.laws.of_element, scene.law, scene.resistance.of_element)
     keys = np.column_stack([*own, *blocks, weight, size, per_node, friction])
     _, firsts, of_element = np.unique(np.round(keys, 9), axis=0, return_index=True, return_inverse=True)
-    arrays = scene.law_arrays()
-    soils = [_soil(scene, units, arrays, int(at), float(weight[at]), friction[at].tolist()) for at in firsts]
+    soils = [_soil(scene, units, int(at), float(weight[at]), friction[at].tolist()) for at in firsts]
     return soils, of_element.ravel()
 
 
@@ -137,9 +137,7 @@ def _friction(scene: ResolvedDeck, weight: Floats) -> Floats:
     return np.column_stack([coefficient, spring])
 
 
-def _soil(
-    scene: ResolvedDeck, units: SiFactors, arrays: LawArrays, at: int, weight: float, friction: list[float]
-) -> ExportSoil:
+def _soil(scene: ResolvedDeck, units: SiFactors, at: int, weight: float, friction: list[float]) -> ExportSoil:
     kind, diameter = LawKind(int(scene.law[at])), float(np.nan_to_num(scene.diameter[at]))
     parameters = {}
     if kind is LawKind.SOIL:
@@ -147,19 +145,18 @@ def _soil(
         parameters = {name: float(values[0]) for name, values in named.items()}
         stiffness, tangent = _of_soil(parameters, weight, diameter)
     else:
-        stiffness, tangent = _stiffness(scene, arrays, at, kind, weight)
-    where = None if (law := scene.set_law(at)) is None else law.where
-    for keyword in ("SEABED SOIL",) if kind is LawKind.SOIL else ("SEABED CONTACT",) if kind is LawKind.NODAL else ():
-        where = scene.extensions[keyword].places[int(scene.extensions[keyword].of_element[at])]
-    own = int(scene.resistance.of_element[at])
-    friction_at = scene.resistance.places[own] if own >= 0 else None
-    extension = scene.extensions.get("SEABED FRICTION")
-    if extension is not None and extension.of_element[at] >= 0:
-        friction_at = extension.places[int(extension.of_element[at])]
+        stiffness, tangent = _stiffness(scene, at, kind, weight)
+
+    def place_in(table: Extension | SeabedResistance | None) -> Where | None:
+        own = -1 if table is None else int(table.of_element[at])
+        return None if table is None or own < 0 else table.places[own]
+
+    extension = {LawKind.SOIL: "SEABED SOIL", LawKind.NODAL: "SEABED CONTACT"}.get(kind, "")
+    law = scene.set_law(at)
     return ExportSoil(
         scene.law_names[at],
         kind,
-        where,
+        place_in(scene.extensions.get(extension)) or (law.where if law else None),
         diameter * units.length,
         weight * units.force / units.length,
         stiffness * units.stiffness,
@@ -169,14 +166,14 @@ def _soil(
         friction[1],
         friction[2] * units.stiffness,
         friction[3] * units.stiffness,
-        friction_at,
+        place_in(scene.extensions.get("SEABED FRICTION")) or place_in(scene.resistance),
         tuple(parameters.items()),
     )
 
 
-def _stiffness(scene: ResolvedDeck, arrays: LawArrays, at: int, kind: LawKind, weight: float) -> tuple[float, float]:
+def _stiffness(scene: ResolvedDeck, at: int, kind: LawKind, weight: float) -> tuple[float, float]:
     """Return secant and tangent at the static penetration, in the deck's units."""
-    diameter, stiffness = float(np.nan_to_num(scene.diameter[at])), 0.0
+    diameter, stiffness, arrays = float(np.nan_to_num(scene.diameter[at])), 0.0, scene.law_arrays()
     if kind is LawKind.LINEAR:
         stiffness = float(arrays.linear_stiffness[at])
     elif kind is LawKind.RIGID and diameter:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import islice
+from typing import NamedTuple
 
 from lsprotocol import types
 
@@ -20,7 +20,7 @@ from mudline.language.keywords.values import Names
 from mudline.language.syntax.tree import LeafKind
 from mudline.tools.lsp.decks import Analysis, value_text
 from mudline.tools.lsp.help import field_help, keyword_help, section_help
-from mudline.tools.lsp.sites import Spot, slot_of_key, spot
+from mudline.tools.lsp.places import Spot, slot_of_key, spot
 
 TRIGGERS = ["$", "*", "=", "[", ",", "{", "%"]
 _HEAD = re.compile(r"[ \t]*([$*])[^\r\n]*$")
@@ -31,8 +31,7 @@ _FIELD = re.compile(r'[^,{}="\[\]]+')
 _ESCAPED = re.compile(r"([$}\\])")
 
 
-@dataclass(frozen=True, slots=True)
-class _Cursor:
+class _Cursor(NamedTuple):
     """Place of a completion, with the text before it on its line, and its block."""
 
     analysis: Analysis
@@ -51,12 +50,9 @@ class _Cursor:
 
 def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[types.CompletionItem]:
     """Return the completions at an offset; `snippets` says that the editor accepts placeholders."""
-    origin = analysis.origin
-    if origin is None:
-        return []
     document = analysis.document
     line = document.source.line_span(document.line_at(offset) + 1)
-    here = spot(origin.tree, max(line.start - 1, 0))
+    here = spot(analysis.origin.tree, max(line.start - 1, 0))
     cursor = _Cursor(analysis, offset, document.text[line.start : offset], here, snippets)
     if head := _HEAD.match(cursor.before):
         start = line.start + head.start(1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from lsprotocol import types
@@ -13,8 +13,7 @@ from mudline.checks.fixing import fix_bytes
 from mudline.checks.pages import page
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.diagnostics import Diagnostic, Fix, Severity, Span
-from mudline.tools.lsp.decks import Analysis
-from mudline.tools.lsp.documents import OpenDocument
+from mudline.tools.lsp.decks import Analysis, OpenDocument
 
 SOURCE = "mudline"
 FIX_ALL = "source.fixAll.mudline"
@@ -61,27 +60,24 @@ def _shown(document: OpenDocument, finding: Diagnostic) -> types.Diagnostic:
 
 
 def actions(
-    analysis: Analysis, range_: types.Range, only: Iterable[str] | None, *, resolved: bool
-) -> list[types.CodeAction]:
-    """Return the fixes for findings in a range, and an action that fixes the whole deck.
+    analysis: Analysis, range_: types.Range, only: Sequence[str] | None, *, resolved: bool
+) -> Iterator[types.CodeAction]:
+    """Yield the fixes for findings in a range, and an action that fixes the whole deck.
 
     `only` are the kinds that the editor requests, None for any. If the editor asks for edits later (`resolved`), those
     of the last action are left to `fix_all`: they take as long as several checks.
     """
     document = analysis.document
-    kinds = list(only) if only is not None else None
-    fixes: list[types.CodeAction] = []
-    if _asked(types.CodeActionKind.QuickFix.value, kinds):
-        fixes += _quick_fixes(analysis, Span(document.offset(range_.start), document.offset(range_.end)))
-    if _asked(FIX_ALL, kinds) and any(fix.applicability == "safe" for _, fix in _fixes(analysis)):
+    if _asked(types.CodeActionKind.QuickFix.value, only):
+        yield from _quick_fixes(analysis, Span(document.offset(range_.start), document.offset(range_.end)))
+    if _asked(FIX_ALL, only) and any(fix.applicability == "safe" for _, fix in _fixes(analysis)):
         action = types.CodeAction("Fix all findings that have a safe fix", FIX_ALL, data={"uri": document.uri})
         if not resolved:
             action.edit = fix_all(analysis)
-        fixes.append(action)
-    return fixes
+        yield action
 
 
-def _asked(kind: str, kinds: list[str] | None) -> bool:
+def _asked(kind: str, kinds: Sequence[str] | None) -> bool:
     """Return True if a kind of action is requested; kinds have parts with dots, and `a` includes `a.b`."""
     return kinds is None or any(kind == asked or kind.startswith(f"{asked}.") or not asked for asked in kinds)
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice
+from pathlib import Path
 
 import numpy as np
 from lsprotocol import types
 
-from mudline.basics.limits import MOST_HINTS
+from mudline.basics.limits import LISTED, MOST_HINTS
 from mudline.basics.quantities import unit_names
-from mudline.basics.short_repr import counted
+from mudline.basics.short_repr import counted, listed_numbers
+from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
@@ -28,17 +30,14 @@ from mudline.model.scene.numbering import Floats
 from mudline.model.scene.references import CURVES
 from mudline.model.scene.restart import find_deck
 from mudline.tools.lsp.decks import Analysis, value_text
-from mudline.tools.lsp.names import Occurrence, at, equation_spans
-from mudline.tools.lsp.sites import Site, site, spot
+from mudline.tools.lsp.places import Occurrence, Site, at, equation_spans, site, spot
 
 
 def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     """Return the help on an offset, in Markdown; None if there is none."""
     origin = analysis.origin
-    if origin is None:
-        return None
     here = spot(origin.tree, offset)
-    leaf = here.leaf
+    leaf = here.raw.head if here.raw else here.raw_section.head if here.raw_section else None
     if leaf is not None and leaf.span.start <= offset < leaf.span.end:
         section = here.raw_section.name if here.raw_section else ""
         head = section_help(section) if here.raw is None else keyword_help(here.raw.name, section)
@@ -46,7 +45,7 @@ def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     named = at(analysis.names, offset)
     if named is not None and named.thing.kind is Names.PARAMETER:
         return _hover(analysis, parameter_help(analysis, named), named.span)
-    value = site(analysis, offset)
+    value = site(analysis.deck, offset)
     return _hover(analysis, "\n\n".join(filter(None, _value_help(analysis, value))), value.span) if value else None
 
 
@@ -108,24 +107,16 @@ def field_help(slot: FieldSpec, units: str) -> str:
 
 def _value_help(analysis: Analysis, value_site: Site) -> Iterator[str]:
     yield field_help(value_site.slot, analysis.deck.units)
-    value = value_site.value
+    value, kind = value_site.value, value_site.slot.about.names or value_site.slot.about.defines
     if isinstance(value, Equation):
         yield f"`{value}` = {analysis.evaluated(value)}"
     elif isinstance(value, str):
-        yield named_help(analysis, value_site, value)
-    elif isinstance(value, int | float):
-        yield number_help(analysis, value_site, value)
-    if row := segment_help(analysis, value_site):
-        yield row
-
-
-_FEW = 10
-
-
-def listed(numbers: list[int]) -> str:
-    """Return the first numbers, and the count of all if they are more."""
-    more = f", ... ({len(numbers)} in all)" if len(numbers) > _FEW else ""
-    return ", ".join(map(str, numbers[:_FEW])) + more
+        yield named_help(analysis, kind, value)
+    elif kind in (Names.NODE, Names.ELEMENT) and (index := index_of(analysis.scene, kind, value)) is not None:
+        of_kind = _node if kind is Names.NODE else _element
+        name = f"{kind.name.lower()} {value:.0f}"
+        yield f"{name} is not defined here" if index < 0 else "\n\n".join(of_kind(analysis.scene, index))
+    yield segment_help(analysis, value_site)
 
 
 # --------------------------------------------------------------------------------------------------------- parameters
@@ -146,10 +137,9 @@ def parameter_help(analysis: Analysis, named: Occurrence) -> str:
 # ------------------------------------------------------------------------------------------------------ names in fields
 
 
-def named_help(analysis: Analysis, value_site: Site, name: str) -> str:
-    """Return the help on a name in a field."""
+def named_help(analysis: Analysis, kind: Names | None, name: str) -> str:
+    """Return the help on a name in a field, of a kind."""
     scene = analysis.scene
-    kind = value_site.slot.about.names or value_site.slot.about.defines
     if kind in (Names.SET, Names.SUBSET):
         return set_help(scene, name)
     if kind is Names.CURVE:
@@ -158,9 +148,18 @@ def named_help(analysis: Analysis, value_site: Site, name: str) -> str:
     if kind in CURVES:
         return "\n\n".join(other_curve_help(curve) for curve in scene.other_curves if _same(curve.name, name))
     if kind in (Names.FILE, Names.DECK):
-        path = find_deck(analysis.deck, name) if kind is Names.DECK else find_file(analysis.deck.folder, name)
+        path = file_named(kind, analysis.deck, name)
         return path.as_posix() if path else "this file was not found"
     return ""
+
+
+def file_named(kind: Names | None, deck: Deck, name: object) -> Path | None:
+    """Return the existing file that a name of a kind in a deck stands for, or None."""
+    if not isinstance(name, str):
+        return None
+    if kind is Names.DECK:
+        return find_deck(deck, name)
+    return find_file(deck.folder, name) if kind is Names.FILE else None
 
 
 def _same(first: str, second: str) -> bool:
@@ -174,7 +173,7 @@ def set_help(scene: Scene, name: str) -> str:
         return ""
     words = [f"set **{named_set.name}**: {counted(len(named_set.elements), 'element')}"]
     if len(named_set.elements):
-        words.append(listed(scene.element_ids[named_set.elements].tolist()))
+        words.append(listed_numbers(scene.element_ids[named_set.elements].tolist()))
         lengths = scene.length[named_set.elements]
         words.append(_with_unit("total length", float(np.nansum(lengths)), unit_names(scene.units).length))
     if diameters := _diameters(scene, scene.diameter[named_set.elements]):
@@ -267,36 +266,23 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
 # --------------------------------------------------------------------------------------------------- nodes and elements
 
 
-def number_help(analysis: Analysis, value_site: Site, value: float) -> str:
-    """Return the help on the node or element whose number stands in a field."""
-    kind, scene = value_site.slot.about.names or value_site.slot.about.defines, analysis.scene
-    if kind not in (Names.NODE, Names.ELEMENT) or not is_label(value):
-        return ""
-    return "\n\n".join(_node(scene, int(value)) if kind is Names.NODE else _element(scene, int(value)))
+def index_of(scene: Scene, kind: Names, value: object) -> int | None:
+    """Return the index of the node or element of a number, -1 if it is not defined; None for anything but a number."""
+    if not isinstance(value, int | float) or not float(value).is_integer() or abs(value) > LARGEST_WHOLE:
+        return None
+    table = scene.nodes if kind is Names.NODE else scene.table.numbered
+    return int(table.indices(np.array([value], dtype=np.int64))[0])
 
 
-def is_label(value: object) -> bool:
-    """Return True if a value may be the number of a node or an element."""
-    return isinstance(value, int | float) and float(value).is_integer() and abs(value) <= LARGEST_WHOLE
-
-
-def _node(scene: Scene, number: int) -> Iterator[str]:
-    index = int(scene.nodes.indices(np.array([number], dtype=np.int64))[0])
-    if index < 0:
-        yield f"node {number} is not defined here"
-        return
+def _node(scene: Scene, index: int) -> Iterator[str]:
     x, y, z = scene.coordinates[index].tolist()
-    yield f"node **{number}**: X {x:g}, Y {y:g}, Z {z:g}"
+    yield f"node **{scene.node_ids[index]}**: X {x:g}, Y {y:g}, Z {z:g}"
     ends = scene.element_ids[(scene.element_nodes == index).any(axis=1)].tolist()
     if ends:
-        yield f"of {'element' if len(ends) == 1 else 'elements'} {listed(ends)}"
+        yield f"of {'element' if len(ends) == 1 else 'elements'} {listed_numbers(ends)}"
 
 
-def _element(scene: Scene, number: int) -> Iterator[str]:
-    index = int(scene.table.numbered.indices(np.array([number], dtype=np.int64))[0])
-    if index < 0:
-        yield f"element {number} is not defined here"
-        return
+def _element(scene: Scene, index: int) -> Iterator[str]:
     nodes = [str(scene.node_ids[node]) if node >= 0 else "?" for node in scene.element_nodes[index].tolist()]
     unit = unit_names(scene.units).length
     facts = [f"nodes {' and '.join(nodes)}"]
@@ -304,9 +290,9 @@ def _element(scene: Scene, number: int) -> Iterator[str]:
         facts.append(_with_unit("length", float(scene.length[index]), unit))
     if not np.isnan(scene.diameter[index]):
         facts.append(_with_unit("D =", float(scene.diameter[index]), unit))
-    yield f"element **{number}**: {', '.join(facts)}"
+    yield f"element **{scene.element_ids[index]}**: {', '.join(facts)}"
     sets = [shown(each.name) for each in scene.set_table.named.values() if index in each.elements]
-    yield f"in {', '.join(sets[:_FEW])}" + (" and more" if len(sets) > _FEW else "")
+    yield f"in {', '.join(sets[:LISTED])}" + (" and more" if len(sets) > LISTED else "")
 
 
 # ---------------------------------------------------------------------------------------------------- between the lines
@@ -315,8 +301,6 @@ def _element(scene: Scene, number: int) -> Iterator[str]:
 def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
     """Return the values of the equations in a range."""
     document = analysis.document
-    if analysis.origin is None:
-        return []
     within = Span(document.offset(range_.start), document.offset(range_.end))
     spans = (span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end)
     values = ((span, analysis.evaluated(Equation(document.text[slice(*span)]))) for span in islice(spans, MOST_HINTS))

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
 from lsprotocol import types
 
 from mudline.checks.context import read_deck
@@ -19,17 +18,12 @@ from mudline.language.expression.parsing import ExpressionError, parse
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, apply_edits
-from mudline.model.scene.deck_values import find_file
-from mudline.model.scene.restart import decks_before, find_deck
+from mudline.model.scene.restart import decks_before
 from mudline.model.scene.sets import ALL, LONGEST_NAME
-from mudline.tools.lsp import names
-from mudline.tools.lsp.decks import Analysis, Decks, failed
-from mudline.tools.lsp.documents import OpenDocument, address_of
-from mudline.tools.lsp.help import is_label
-from mudline.tools.lsp.names import WORDS, Occurrence, Thing, occurrences
-from mudline.tools.lsp.sites import Site, site
-
-# ----------------------------------------------------------------------------------------------------- decks of a chain
+from mudline.tools.lsp import places
+from mudline.tools.lsp.decks import Analysis, Decks, OpenDocument, address_of, failed
+from mudline.tools.lsp.help import file_named, index_of
+from mudline.tools.lsp.places import WORDS, Occurrence, Site, Thing, occurrences, site
 
 
 class Linked(NamedTuple):
@@ -38,31 +32,6 @@ class Linked(NamedTuple):
     document: OpenDocument
     deck: Deck
 
-
-def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
-    """Return a deck, the decks that it continues, and the open decks that continue it."""
-    linked = [Linked(analysis.document, analysis.deck)]
-    for base in analysis.scene.deck.bases:
-        if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
-            path = base.deck.folder / Path(base.deck.file).name
-            document = decks.at(path) or OpenDocument(address_of(path), base.deck.origin.source.text, 0)
-            linked.append(Linked(document, base.deck))
-    if analysis.document.path is not None:
-        linked += _dependents(decks, analysis.document.path)
-    return linked
-
-
-def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
-    """Yield the open decks that continue a deck."""
-    for uri in list(decks.documents):
-        analysis = decks.analysis(uri)
-        if analysis is not None and analysis.document.path != path:
-            with analysis.reading():
-                if os.path.abspath(path) in map(os.path.abspath, decks_before(analysis.deck)):  # noqa: PTH100 - links stay
-                    yield Linked(analysis.document, analysis.deck)
-
-
-# -------------------------------------------------------------------------------------------------------------- answers
 
 _NOT_IN_NAMES = ',="{}[]%/\r\n'
 
@@ -73,34 +42,35 @@ class Navigator:
     def __init__(self, decks: Decks, analysis: Analysis) -> None:
         self.decks = decks
         self.analysis = analysis
+        self.at = analysis.document.offset
 
     # --------------------------------------------------------------------------------------------- definition and uses
 
     def definition(self, offset: int) -> list[types.Location]:
         """Return the places where the object at an offset is defined; for the name of a file, the file."""
-        named = names.at(self.analysis.names, offset)
+        named = places.at(self.analysis.names, offset)
         if named is not None:
             return [_location(each.document, use.span) for each, use in self._named(named.thing) if use.defines]
-        value = site(self.analysis, offset)
-        if value is not None and (file := self._file(value.slot.about.names, self.analysis.deck, value.value)):
+        value = site(self.analysis.deck, offset)
+        if value is not None and (file := file_named(value.slot.about.names, self.analysis.deck, value.value)):
             return [types.Location(address_of(file), types.Range(types.Position(0, 0), types.Position(0, 0)))]
         return self._numbered(value) if value else []
 
     def references(self, offset: int, *, declaration: bool) -> list[types.Location]:
         """Return every place where the object at an offset is used; with `declaration`, also its definitions."""
-        named = names.at(self.analysis.names, offset)
+        named = places.at(self.analysis.names, offset)
         if named is not None:
             uses = self._named(named.thing)
             return [_location(each.document, use.span) for each, use in uses if declaration or not use.defines]
-        value = site(self.analysis, offset)
-        file = value and self._file(value.slot.about.names, self.analysis.deck, value.value)
+        value = site(self.analysis.deck, offset)
+        file = value and file_named(value.slot.about.names, self.analysis.deck, value.value)
         if file is None:
             return []
         return [
             _location(document, span)
             for document, deck in self._linked()
             for kind, role, name, where in deck.names()
-            if role == "names" and self._file(kind, deck, name) == file
+            if role == "names" and file_named(kind, deck, name) == file
             if isinstance(deck.origin, TextOrigin) and (span := deck.origin.span(where))
         ]
 
@@ -109,11 +79,27 @@ class Navigator:
         places = self.references(offset, declaration=True)
         return [types.DocumentHighlight(place.range) for place in places if place.uri == self.analysis.document.uri]
 
-    def _linked(self, thing: Thing | None = None) -> list[Linked]:
-        """Return the decks in which an object is the same: a parameter belongs to its deck."""
+    def _linked(self, thing: Thing | None = None) -> Iterator[Linked]:
+        """Yield this deck, the decks that it continues, and the open decks that continue it.
+
+        These are the decks in which an object is the same; a parameter belongs to its deck.
+        """
+        yield Linked(self.analysis.document, self.analysis.deck)
         if thing is not None and thing.kind is Names.PARAMETER:
-            return [Linked(self.analysis.document, self.analysis.deck)]
-        return chain(self.decks, self.analysis)
+            return
+        for base in self.analysis.scene.deck.bases:
+            if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
+                path = base.deck.folder / Path(base.deck.file).name
+                document = self.decks.at(path) or OpenDocument(address_of(path), base.deck.origin.source.text, 0)
+                yield Linked(document, base.deck)
+        own = self.analysis.document.path
+        for uri in list(self.decks.documents) if own is not None else ():
+            other = self.decks.analysis(uri)
+            if own is not None and other is not None and other.document.path != own:
+                with other.reading():
+                    bases = list(map(os.path.abspath, decks_before(other.deck)))
+                if os.path.abspath(own) in bases:  # noqa: PTH100 - links stay
+                    yield Linked(other.document, other.deck)
 
     def _named(self, thing: Thing) -> Iterator[tuple[Linked, Occurrence]]:
         for linked in self._linked(thing):
@@ -125,13 +111,10 @@ class Navigator:
     def _numbered(self, value: Site) -> list[types.Location]:
         """Return the definition of the node or element whose number stands in a field."""
         scene, kind = self.analysis.scene, value.slot.about.names or value.slot.about.defines
-        if kind not in (Names.NODE, Names.ELEMENT) or not is_label(value.value):
+        index = index_of(scene, kind, value.value) if kind in (Names.NODE, Names.ELEMENT) else None
+        if index is None or index < 0:
             return []
-        table = scene.nodes if kind is Names.NODE else scene.table.numbered
-        index = int(table.indices(np.array([value.value], dtype=np.int64))[0])
-        if index < 0:
-            return []
-        where = table.where(index)
+        where = (scene.nodes if kind is Names.NODE else scene.table.numbered).where(index)
         deck, where = scene.deck.base_of(where) or (self.analysis.deck, where)
         document = next((linked.document for linked in self._linked() if linked.deck is deck), None)
         if document is None or not isinstance(deck.origin, TextOrigin):
@@ -139,19 +122,11 @@ class Navigator:
         span = deck.origin.span(where.inside(0)) or deck.origin.span(where)
         return [_location(document, span)] if span else []
 
-    def _file(self, kind: Names | None, deck: Deck, name: object) -> Path | None:
-        """Return the existing file that a name of a kind in a deck stands for, or None."""
-        if not isinstance(name, str):
-            return None
-        if kind is Names.DECK:
-            return find_deck(deck, name)
-        return find_file(deck.folder, name) if kind is Names.FILE else None
-
     # ------------------------------------------------------------------------------------------------------ new names
 
     def renamed(self, offset: int) -> Occurrence:
         """Return the name at an offset if it can be changed; raises JsonRpcException."""
-        named = names.at(self.analysis.names, offset)
+        named = places.at(self.analysis.names, offset)
         if named is None:
             raise failed("only sets, curves and parameters can be renamed")
         word = WORDS[named.thing.kind]
@@ -173,7 +148,7 @@ class Navigator:
     def rename(self, offset: int, name: str) -> types.WorkspaceEdit:
         """Return the changes that rename the object at an offset in every deck of a chain; raises JsonRpcException."""
         named = self.renamed(offset)
-        old, new = named.thing, names.thing(named.thing.kind, name)
+        old, new = named.thing, places.thing(named.thing.kind, name)
         self._check(old, new, name)
         edits: dict[int, tuple[Linked, list[TextEdit]]] = {}
         for linked, use in self._named(old):

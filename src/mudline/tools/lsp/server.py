@@ -1,14 +1,18 @@
-"""Server: its messages, open decks, and their checks when they or the decks that they depend on change."""
+"""Server: its messages, open decks with their checks, and each request with the module that answers it."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Generator
+import logging
+import sys
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from copy import copy
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from lsprotocol import types
+from pygls.capabilities import get_capability
 from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams, JsonRpcInvalidRequest
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
@@ -16,9 +20,10 @@ from pygls.protocol import LanguageServerProtocol, lsp_method
 from mudline.basics.limits import LARGEST_OPEN
 from mudline.basics.version import __version__
 from mudline.language.deck.forms import SUFFIXES
-from mudline.tools.lsp import findings
-from mudline.tools.lsp.decks import Analysis, Decks
-from mudline.tools.lsp.documents import OpenDocument, file_of
+from mudline.tools.lsp import completion, findings, structure
+from mudline.tools.lsp.decks import Analysis, Decks, OpenDocument, file_of
+from mudline.tools.lsp.help import hints, hover
+from mudline.tools.lsp.navigation import Navigator
 
 T = TypeVar("T")
 
@@ -125,7 +130,7 @@ class DeckServer(LanguageServer):
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
         self._touch(document)
 
-    def files_changed(self, changes: list[types.FileEvent]) -> None:
+    def files_changed(self, changes: Sequence[types.FileEvent]) -> None:
         """Check the decks again that depend on files changed by other programs."""
         paths = [path for change in changes if (path := file_of(change.uri)) is not None]
         if any(path.suffix == CONFIGURATION for path in paths):
@@ -161,22 +166,19 @@ class DeckServer(LanguageServer):
     @property
     def resolves_edits(self) -> bool:
         """True if the editor requests the edits of an action only when it needs them."""
-        document = self.client_capabilities.text_document
-        support = document.code_action.resolve_support if document and document.code_action else None
-        return support is not None and "edit" in support.properties
+        return "edit" in get_capability(
+            self.client_capabilities, "text_document.code_action.resolve_support.properties", []
+        )
 
     @property
     def takes_snippets(self) -> bool:
         """True if the editor supports snippets."""
-        document = self.client_capabilities.text_document
-        item = document.completion.completion_item if document and document.completion else None
-        return bool(item and item.snippet_support)
+        field = "text_document.completion.completion_item.snippet_support"
+        return bool(get_capability(self.client_capabilities, field))
 
     def watch_files(self) -> None:
         """Ask the editor to report changes of decks, of files that they name, and of configurations."""
-        workspace = self.client_capabilities.workspace
-        watching = workspace.did_change_watched_files if workspace else None
-        if watching and watching.dynamic_registration:
+        if get_capability(self.client_capabilities, "workspace.did_change_watched_files.dynamic_registration"):
             watchers = [types.FileSystemWatcher(f"**/{pattern}") for pattern in _WATCHED]
             options = types.DidChangeWatchedFilesRegistrationOptions(watchers)
             method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
@@ -240,3 +242,116 @@ def _failed(check: asyncio.Task[None]) -> None:
     """Pass the exception of a check to the loop, and so to `unexpected`."""
     if not check.cancelled():
         check.result()
+
+
+# ------------------------------------------------------------------------------------------------------------- requests
+
+Ask = Callable[[Navigator, Any], object]
+"""Function that answers a request about a deck, from the parameters of the request."""
+
+_ANSWERS: dict[str, tuple[Ask, object]] = {
+    types.TEXT_DOCUMENT_HOVER: (lambda deck, asked: hover(deck.analysis, deck.at(asked.position)), None),
+    types.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (lambda deck, _: list(structure.outline(deck.analysis)), []),
+    types.TEXT_DOCUMENT_FOLDING_RANGE: (lambda deck, _: list(structure.folding(deck.analysis)), []),
+    types.TEXT_DOCUMENT_FORMATTING: (lambda deck, _: structure.formatting(deck.analysis), []),
+    types.TEXT_DOCUMENT_INLAY_HINT: (lambda deck, asked: hints(deck.analysis, asked.range), []),
+    types.TEXT_DOCUMENT_DEFINITION: (lambda deck, asked: deck.definition(deck.at(asked.position)), []),
+    types.TEXT_DOCUMENT_REFERENCES: (
+        lambda deck, asked: deck.references(deck.at(asked.position), declaration=asked.context.include_declaration),
+        [],
+    ),
+    types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: (lambda deck, asked: deck.highlights(deck.at(asked.position)), []),
+    types.TEXT_DOCUMENT_PREPARE_RENAME: (lambda deck, asked: deck.prepared(deck.at(asked.position)), None),
+    types.TEXT_DOCUMENT_RENAME: (lambda deck, asked: deck.rename(deck.at(asked.position), asked.new_name), None),
+}
+"""Answers, and the answer in a file that is not keyword text; JSON and YAML have a canonical layout only."""
+_OPTIONS = {types.TEXT_DOCUMENT_RENAME: types.RenameOptions(prepare_provider=True)}
+
+
+def register(server: DeckServer) -> None:
+    """Register every request that is answered."""
+    server.feature(types.INITIALIZED)(lambda _: server.watch_files())
+    server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)(lambda told: server.files_changed(told.changes))
+    _fixes(server)
+    _completion(server)
+    for method, (ask, nothing) in _ANSWERS.items():
+        _answer(server, method, ask, nothing)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
+    def saved(params: types.DidSaveTextDocumentParams) -> None:
+        server.files_changed([types.FileEvent(params.text_document.uri, types.FileChangeType.Changed)])
+
+    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, structure.LEGEND)
+    async def semantic_tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
+        document = copy(server.decks.documents.get(params.text_document.uri))  # in its present state
+        return await server.aside(lambda: structure.tokens(document)) if document else types.SemanticTokens([])
+
+
+def _answer(server: DeckServer, method: str, ask: Ask, nothing: object) -> None:
+    @server.feature(method, _OPTIONS.get(method))
+    async def answered(params: Any) -> object:  # noqa: ANN401 - of each request others
+        analysis = await server.analysis(params.text_document.uri)
+        if analysis is None or not (analysis.is_text or method == types.TEXT_DOCUMENT_FORMATTING):
+            return nothing
+        return ask(Navigator(server.decks, analysis), params)
+
+
+def _fixes(server: DeckServer) -> None:
+    options = types.CodeActionOptions(code_action_kinds=findings.KINDS, resolve_provider=True)
+
+    @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, options)
+    async def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
+        analysis = await server.analysis(params.text_document.uri, checked=True)
+        if analysis is None:
+            return []
+        context, resolved = params.context, server.resolves_edits
+        asked = params.range, context.only
+        return await server.aside(lambda: list(findings.actions(analysis, *asked, resolved=resolved)))
+
+    @server.feature(types.CODE_ACTION_RESOLVE)
+    async def resolve(action: types.CodeAction) -> types.CodeAction:
+        uri = action.data.get("uri") if isinstance(action.data, dict) else None
+        analysis = await server.analysis(uri) if isinstance(uri, str) else None
+        if analysis is not None and action.kind == findings.FIX_ALL:
+            action.edit = await server.aside(lambda: findings.fix_all(analysis))
+        return action
+
+
+def _completion(server: DeckServer) -> None:
+    options = types.CompletionOptions(trigger_characters=completion.TRIGGERS, resolve_provider=True)
+
+    @server.feature(types.TEXT_DOCUMENT_COMPLETION, options)
+    async def completed(params: types.CompletionParams) -> types.CompletionList:
+        analysis = await server.analysis(params.text_document.uri)
+        if analysis is None or not analysis.is_text:
+            return types.CompletionList(is_incomplete=False, items=[])
+        offset = analysis.document.offset(params.position)
+        items = completion.completions(analysis, offset, snippets=server.takes_snippets)
+        return types.CompletionList(is_incomplete=False, items=items)
+
+    server.feature(types.COMPLETION_ITEM_RESOLVE)(completion.resolved)
+
+
+# ---------------------------------------------------------------------------------------------------------- the process
+
+
+_SWITCH = 0.001
+"""Seconds after which a check lets the answering thread run; each answer needs several such turns."""
+
+
+def quiet_logs() -> None:
+    """Keep pygls' reports of unusable messages, which may be of any length, off standard error."""
+    logging.getLogger("pygls").setLevel(logging.CRITICAL)
+    logging.getLogger("asyncio").setLevel(logging.CRITICAL)
+
+
+def serve() -> int:
+    """Serve until the editor ends it; return 0 if the editor announced the end, as the protocol requires, else 1."""
+    quiet_logs()
+    stdin, stdout = sys.stdin.buffer, sys.stdout.buffer
+    sys.stdout = sys.stderr  # what is printed must not come between the messages
+    sys.setswitchinterval(_SWITCH)
+    server = DeckServer()
+    register(server)
+    server.start_io(stdin, stdout)
+    return 0 if server.protocol._shutdown else 1  # noqa: SLF001 - pygls has no other way to ask

@@ -1,4 +1,4 @@
-"""Structure of a deck: its outline, folding ranges, and its canonical layout."""
+"""What an editor shows of a deck besides its text: colours, outline and folding ranges; and its canonical layout."""
 
 from __future__ import annotations
 
@@ -7,41 +7,84 @@ from itertools import groupby, islice
 from typing import cast
 
 from lsprotocol import types
+from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, String, _TokenType
 
 from mudline.basics.limits import MOST_OUTLINED
 from mudline.editing.formatting.document import FormatError, formatted
+from mudline.language.deck.forms import form_of
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import DeckError, Span
+from mudline.language.highlighting.lexer import DeckLexer
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.reader import ReadBlock
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.tree import LeafKind, RawBlock, RawSection
-from mudline.tools.lsp.decks import Analysis, failed
+from mudline.tools.lsp.decks import Analysis, OpenDocument, failed, units_of
+
+# ----------------------------------------------------------------------------------------------------------- colours
+
+_KINDS: dict[_TokenType, types.SemanticTokenTypes] = {
+    Generic.Heading: types.SemanticTokenTypes.Namespace,
+    Keyword: types.SemanticTokenTypes.Keyword,
+    Comment.Single: types.SemanticTokenTypes.Comment,
+    Name.Attribute: types.SemanticTokenTypes.Property,
+    Name.Constant: types.SemanticTokenTypes.EnumMember,
+    Name.Function: types.SemanticTokenTypes.Function,
+    Name.Variable: types.SemanticTokenTypes.Variable,
+    Name.Label: types.SemanticTokenTypes.Variable,
+    Number.Float: types.SemanticTokenTypes.Number,
+    Operator: types.SemanticTokenTypes.Operator,
+    Operator.Word: types.SemanticTokenTypes.Operator,
+    String: types.SemanticTokenTypes.String,
+    String.Double: types.SemanticTokenTypes.String,
+}
+"""Token types that are coloured; unknown sections, keywords and settings stay plain."""
+
+_NAMES = list(dict.fromkeys(kind.value for kind in _KINDS.values()))
+LEGEND = types.SemanticTokensLegend(_NAMES, [])
+
+
+def tokens(document: OpenDocument) -> types.SemanticTokens:
+    """Return the tokens of a deck in keyword text, each relative to the previous token as the protocol counts.
+
+    There are none for JSON and YAML, which editors colour themselves, nor for a text too long to be read at once.
+    """
+    if document.is_long or form_of(document.name) != "keyword":
+        return types.SemanticTokens([])
+    plain = document.text.replace("\r\n", " \n").replace("\r", "\n")  # of the same length
+    data: list[int] = []
+    line = column = 0
+    for at, kind, written in DeckLexer().get_tokens_unprocessed(plain):
+        if kind not in _KINDS:
+            continue
+        place, length = document.position(at), units_of(written)
+        along = place.character - column * (place.line == line)
+        data += [place.line - line, along, length, _NAMES.index(_KINDS[kind].value), 0]
+        line, column = place.line, place.character
+    return types.SemanticTokens(data)
+
 
 # ----------------------------------------------------------------------------------------------------------- outline
 
 
-def outline(analysis: Analysis) -> list[types.DocumentSymbol]:
-    """Return sections, their blocks, and the named records in these: sets, curves, parameters."""
+def outline(analysis: Analysis) -> Iterator[types.DocumentSymbol]:
+    """Yield sections, their blocks, and the named records in these: sets, curves, parameters."""
     origin = analysis.origin
-    if origin is None:
-        return []
-    symbols: list[types.DocumentSymbol] = []
-    for index, section in enumerate(origin.tree.sections):
+    for index, section, head, end in _sections(origin):
+        lines = enumerate(_extents(section, end))
+        blocks = [_block(analysis, origin, (index, number), raw, stop) for number, (raw, stop) in lines]
+        yield _symbol(analysis, f"${section.name}", types.SymbolKind.Module, head, end, blocks)
+
+
+def _sections(origin: TextOrigin) -> Iterator[tuple[int, RawSection, Span, int]]:
+    """Yield number, section, $ line and end of each section; it ends before the next, or with the text."""
+    sections = origin.tree.sections
+    ends = [*(section.head.span.start for section in sections[1:] if section.head), len(origin.source.unified)]
+    for index, (section, end) in enumerate(zip(sections, ends, strict=False)):
         if section.head is not None:
-            lines = _extents(section, _end(origin, index))
-            blocks = [_block(analysis, origin, (index, number), raw, stop) for number, (raw, stop) in enumerate(lines)]
-            kind = types.SymbolKind.Module
-            symbols.append(_symbol(analysis, f"${section.name}", kind, section.head.span, _end(origin, index), blocks))
-    return symbols
-
-
-def _end(origin: TextOrigin, index: int) -> int:
-    """Return the end of a section: the start of the next section, or the end of the text."""
-    following = origin.tree.sections[index + 1 : index + 2]
-    return following[0].head.span.start if following and following[0].head else len(origin.source.unified)
+            yield index, section, section.head.span, end
 
 
 def _extents(section: RawSection, stop: int) -> Iterator[tuple[RawBlock, int]]:
@@ -104,24 +147,19 @@ def _name(record: Part) -> str:
 # ----------------------------------------------------------------------------------------------------------- folding
 
 
-def folding(analysis: Analysis) -> list[types.FoldingRange]:
-    """Return the folding ranges: sections, blocks, and comments of more than one line."""
+def folding(analysis: Analysis) -> Iterator[types.FoldingRange]:
+    """Yield the folding ranges: sections, blocks, and comments of more than one line."""
     origin = analysis.origin
-    if origin is None:
-        return []
     spans = [(span, types.FoldingRangeKind.Comment) for span in _comments(origin)]
-    for index, section in enumerate(origin.tree.sections):
-        if section.head is not None:
-            stop = _end(origin, index)
-            blocks = (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
-            spans += [(span, types.FoldingRangeKind.Region) for span in (Span(section.head.span.start, stop), *blocks)]
-    document, ranges = analysis.document, []
+    for _, section, head, stop in _sections(origin):
+        blocks = (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
+        spans += [(span, types.FoldingRangeKind.Region) for span in (Span(head.start, stop), *blocks)]
+    document = analysis.document
     for span, kind in sorted(spans, key=lambda each: each[1] is types.FoldingRangeKind.Comment):
         body = trimmed(document.text, *span)
         first, last = document.line_at(body.start), document.line_at(max(body.end - 1, body.start))
         if last > first:
-            ranges.append(types.FoldingRange(first, last, kind=kind))
-    return ranges
+            yield types.FoldingRange(first, last, kind=kind)
 
 
 def _comments(origin: TextOrigin) -> Iterator[Span]:

@@ -3,5 +3,3 @@
 `executors` applies a function to items and returns the results in order. `remembered` keeps results from run to run.
 Neither knows what the items are.
 """
-
-from __future__ import annotations

@@ -50,9 +50,6 @@ _COUNTED = 5.0
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for on Windows."""
 
-_SAFE_PATH = "PYTHONSAFEPATH"
-"""Variable by which Python processes that this one starts import no modules of the working folder."""
-
 _ADDRESS = r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})"
 """Strict pattern of addresses: a form that Dask parses differently would escape the check."""
 
@@ -216,12 +213,8 @@ def _done(version: str, work: Callable[[*_Given], _Made], given: tuple[*_Given])
 
 def processors(jobs: int) -> int:
     """Return the number of processes that may be used."""
-    if jobs:
-        count = jobs
-    elif hasattr(os, "sched_getaffinity"):
-        count = len(os.sched_getaffinity(0))
-    else:
-        count = os.cpu_count() or 1
+    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    count = jobs or usable or 1
     return min(count, _MOST_ON_WINDOWS) if sys.platform == "win32" else count
 
 
@@ -248,8 +241,7 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
     if method == "forkserver":
         context.set_forkserver_preload([module])
     executor = ProcessPoolExecutor(count, context, _begin, (outputs(),))
-    safe = os.environ.get(_SAFE_PATH)
-    os.environ[_SAFE_PATH] = "1"
+    os.environ["PYTHONSAFEPATH"] = "1"  # these processes import no modules of the working folder
     try:
         yield executor
     except BaseException:
@@ -258,10 +250,6 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
         raise
     finally:
         executor.shutdown(cancel_futures=True)
-        if safe is None:
-            del os.environ[_SAFE_PATH]
-        else:
-            os.environ[_SAFE_PATH] = safe
 
 
 def _begin(known: ClaimedOutputs) -> None:

@@ -15,7 +15,8 @@ import time
 from collections.abc import Iterable
 from contextlib import suppress
 from functools import cache
-from hashlib import blake2b
+from hashlib import blake2b, file_digest
+from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
@@ -92,13 +93,8 @@ class Memory:
         if not self._changed:
             return
         lines = [f"{key} {held}\n".encode("ascii") for key, held in list(self._entries.items())[-MOST_REMEMBERED:]]
-        size = 0
-        for number, line in enumerate(reversed(lines)):
-            size += len(line)
-            if size > LARGEST_MEMORY - 1000:
-                lines = lines[len(lines) - number :]
-                break
-        body = b"".join(lines)
+        kept = sum(size <= LARGEST_MEMORY - 1000 for size in accumulate(map(len, reversed(lines))))
+        body = b"".join(lines[len(lines) - kept :])
         with suppress(OSError):
             self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
             write_atomically(self._path, [_head(body), b"\n", body], synced=False)
@@ -174,8 +170,7 @@ def state(path: str) -> str:
             digest.update(_version(path).encode("utf-8", "surrogateescape"))
         else:
             with open(path, "rb") as stream:  # noqa: PTH123 - as above
-                while piece := stream.read(1 << 20):
-                    digest.update(piece)
+                file_digest(stream, lambda: digest)
     except (OSError, ValueError):  # a name that no file has
         return ""
     return digest.hexdigest()

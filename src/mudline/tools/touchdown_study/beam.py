@@ -94,8 +94,7 @@ class Beam:
         """Return matrices for w and theta from those for w and l theta."""
         size = np.ones((len(self.lengths), 4))
         size[:, 1::2] = self.lengths[:, None]
-        scaled: FloatArray = matrices * size[:, :, None] * size[:, None, :]
-        return scaled
+        return matrices * size[:, :, None] * size[:, None, :]
 
     @cached_property
     def load(self) -> FloatArray:
@@ -130,8 +129,7 @@ class Beam:
 
     def moments(self, turned: FloatArray) -> FloatArray:
         """Return bending moments (..., m) of the elements from the rotations (..., n) of the nodes."""
-        moments: FloatArray = self.bending * np.diff(turned, axis=-1) / self.lengths
-        return moments
+        return self.bending * np.diff(turned, axis=-1) / self.lengths
 
     def touchdown(self, heights: FloatArray) -> FloatArray:
         """Return touchdown points (...), from the left end: the first change of sign of w (..., n) from the right."""
@@ -163,11 +161,7 @@ class _Condensed:
         self._down = matrix[w, turned] @ self._inverse
         self._up = np.ascontiguousarray(self._down.T)
         self._whole = matrix[w, w] - matrix[w, turned] @ self._up
-        self._work: FloatArray = np.empty_like(self._whole)
-        self._held: tuple[FloatArray, FloatArray] | None = None
-        self._solution = self._work
-        flat, width = self._work.ravel(), len(self._whole)
-        self._diagonal, self._upper, self._lower = flat[:: width + 1], flat[1 :: width + 1], flat[width :: width + 1]
+        self._first: tuple[FloatArray, FloatArray, FloatArray] | None = None
 
     def solve(self, residual: FloatArray, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
         """Return the change (2 n,) that cancels a residual (2 n,), with a diagonal (n,) and its neighbours added."""
@@ -180,14 +174,15 @@ class _Condensed:
 
     def _refined(self, force: FloatArray, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
         """Return w (n - 2,) under a force, by the inverse of the first system and refinement, else by elimination."""
-        if self._held is None:
-            self._held = diagonal.copy(), beside.copy()
-            self._solution = np.asarray(np.linalg.inv(self._added(diagonal, beside)), np.float64)
-        more, more_beside = diagonal - self._held[0], beside - self._held[1]
+        if self._first is None:
+            inverse = np.asarray(np.linalg.inv(self._added(diagonal, beside)), np.float64)
+            self._first = diagonal.copy(), beside.copy(), inverse
+        first_diagonal, first_beside, inverse = self._first
+        more, more_beside = diagonal - first_diagonal, beside - first_beside
         solution, left = np.zeros(len(force)), force.copy()
         least = _REFINED * np.abs(force).max()
         for _ in range(_REFINEMENTS):
-            part = self._solution @ left
+            part = inverse @ left
             solution += part
             np.multiply(-more, part, out=left)
             left[:-1] -= more_beside * part[1:]
@@ -197,11 +192,8 @@ class _Condensed:
         return np.asarray(np.linalg.solve(self._added(diagonal, beside), force), np.float64)
 
     def _added(self, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
-        np.copyto(self._work, self._whole)
-        self._diagonal += diagonal
-        self._upper += beside
-        self._lower += beside
-        return self._work
+        added: FloatArray = self._whole + np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1)
+        return added
 
 
 class _Equations(NamedTuple):
@@ -263,10 +255,10 @@ def _solved(
             whole = whole or (trial, reached)
             if reached < size:
                 break
-            if share < _LEAST_SHARE:  # no share lowers the residual: every second time take the whole correction,
-                stalls += (
-                    1  # which may find at once the elements that touch down and lift off; small corrections take long
-                )
+            # If no share lowers the residual, take the whole correction every second time: it may find at once the
+            # elements that touch down and lift off, for which small corrections take long.
+            if share < _LEAST_SHARE:
+                stalls += 1
                 if stalls % 2 == 0:
                     share, (trial, reached) = 1.0, whole
                 break

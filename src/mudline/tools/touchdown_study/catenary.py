@@ -28,6 +28,10 @@ _STRAIGHT = 1e-9
 """Change of V/T along an element below which it is straight to rounding."""
 
 
+_Part = tuple[float, float]
+"""First and last arc length of a part of a line."""
+
+
 class NoRestShapeError(Exception):
     """Reason, in a sentence, why a line has no resting shape."""
 
@@ -44,7 +48,7 @@ class Catenary(NamedTuple):
     """
 
     tension: float
-    lying: tuple[tuple[float, float], ...]
+    lying: tuple[_Part, ...]
     distance: Floats
     height: Floats
     vertical: Floats
@@ -92,7 +96,7 @@ class HangingLine:
         height = np.append(0.0, np.cumsum(steps * (before + behind) / (root + next_root)))
         return arcs, distance, height - self.slope * distance, force
 
-    def carrying_parts(self) -> list[tuple[float, float]]:
+    def carrying_parts(self) -> list[_Part]:
         """Return the stretches (first, last arc length) of elements that sink, between buoyant stretches."""
         sinks = np.concatenate([[False], self.weights > 0.0, [False]])
         first, last = np.flatnonzero(~sinks[:-1] & sinks[1:]), np.flatnonzero(sinks[:-1] & ~sinks[1:])
@@ -124,9 +128,7 @@ def rest(line: HangingLine, distance: float, heights: tuple[float, float]) -> Ca
     return shape
 
 
-def _tensioned(
-    line: HangingLine, distance: float, heights: tuple[float, float], used: list[tuple[float, float]]
-) -> Catenary:
+def _tensioned(line: HangingLine, distance: float, heights: tuple[float, float], used: list[_Part]) -> Catenary:
     """Return the shape with the required distance of the ends and lying parts in `used`, by varying the tension."""
     low, high = (float(np.abs(line.carried).max()) * share for share in (_LEAST, 1.0 / _LEAST))
     shape = _hanging(line, low, heights, used)
@@ -150,16 +152,12 @@ def _tensioned(
     return _assembled(line, low, shape)
 
 
-_Spans = list[tuple[float, float]]
-"""First and last arc lengths of hanging parts."""
-
-
-def _hanging(line: HangingLine, tension: float, heights: tuple[float, float], used: _Spans) -> _Spans | None:
+def _hanging(line: HangingLine, tension: float, heights: tuple[float, float], used: list[_Part]) -> list[_Part] | None:
     """Return the hanging parts under a tension: at the ends above the seabed, and between lying parts.
 
     None if the tension is too large for a part to leave the seabed.
     """
-    spans: _Spans = []
+    spans: list[_Part] = []
     if heights[0] > 0.0:
         back = line.reversed()
         start = _leaves(back, tension, (line.length - used[0][1], line.length - used[0][0]), heights[0])
@@ -177,7 +175,7 @@ def _hanging(line: HangingLine, tension: float, heights: tuple[float, float], us
     return [*spans, (start, line.length)]
 
 
-def _leaves(line: HangingLine, tension: float, part: tuple[float, float], height: float) -> float | None:
+def _leaves(line: HangingLine, tension: float, part: _Part, height: float) -> float | None:
     """Return the arc length at which a line leaves the seabed within a part to end at a height, or None."""
 
     def missing(start: float) -> float:
@@ -188,9 +186,7 @@ def _leaves(line: HangingLine, tension: float, part: tuple[float, float], height
     return part[1] if missing(part[1]) < 0.0 else _root(missing, *part)
 
 
-def _arch(
-    line: HangingLine, tension: float, before: tuple[float, float], behind: tuple[float, float]
-) -> tuple[float, float] | None:
+def _arch(line: HangingLine, tension: float, before: _Part, behind: _Part) -> _Part | None:
     """Return the arc lengths at which a buoyant arch leaves the seabed and comes down in the next part, or None."""
 
     def lands(start: float) -> float:
@@ -221,14 +217,14 @@ def _root(function: Callable[[float], float], low: float, high: float) -> float:
     return 0.5 * (low + high)
 
 
-def _extent(line: HangingLine, tension: float, shape: _Spans) -> float:
+def _extent(line: HangingLine, tension: float, shape: list[_Part]) -> float:
     """Return the distance between the ends of a line with hanging parts."""
     lying = line.length - sum(last - first for first, last in shape)
     cosine = 1.0 / math.hypot(1.0, line.slope)
     return lying * cosine + sum(float(_span(line, tension, each)[1][-1]) for each in shape)
 
 
-def _span(line: HangingLine, tension: float, span: tuple[float, float]) -> tuple[Floats, Floats, Floats, Floats]:
+def _span(line: HangingLine, tension: float, span: _Part) -> tuple[Floats, Floats, Floats, Floats]:
     """Return arc lengths, distances, heights and forces of a hanging part, from its end on the seabed."""
     first, last = span
     if first > 0.0 or last >= line.length:
@@ -238,7 +234,7 @@ def _span(line: HangingLine, tension: float, span: tuple[float, float]) -> tuple
     return line.length - arcs, distance[0] - distance, height, -force
 
 
-def _assembled(line: HangingLine, tension: float, shape: _Spans) -> Catenary:
+def _assembled(line: HangingLine, tension: float, shape: list[_Part]) -> Catenary:
     """Return the catenary of all nodes from its hanging parts."""
     cosine = 1.0 / math.hypot(1.0, line.slope)
     steps, height, vertical = np.diff(line.arcs) * cosine, np.zeros(len(line.arcs)), np.zeros(len(line.arcs))

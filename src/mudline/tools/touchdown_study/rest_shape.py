@@ -304,10 +304,10 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
     length = line.model.length
     others = [each.arc if point.beyond else length - each.arc for each in touchdowns(trial, length)]
     before = max((each for each in others if each < arc), default=0.0)
-    behind = min((each for each in others if each > arc), default=float(arcs[-1]))
+    middle = 0.5 * (arc + min((each for each in others if each > arc), default=float(arcs[-1])))
     while first < node - 1 and arcs[first] < before:
         first += 1
-    while last > node and arcs[last + 1] > 0.5 * (arc + behind):
+    while last > node and arcs[last + 1] > middle:
         last -= 1
     if not (depth[first : last + 1] > 0.0).all() or not weight > 0.0:  # rigid seabed, or the pipe is not carried
         return _NO_BEND

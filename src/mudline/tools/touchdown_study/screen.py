@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from mudline.basics.display import DisplayTable, number, text
@@ -138,9 +140,8 @@ def extremes_table(result: Study) -> DisplayTable | None:
     return DisplayTable(f"Stiff and extreme: {step}, and what half of it changes", columns, result.extremes)
 
 
-def stability_sentences(result: Study) -> list[str]:
-    """Return sentences on friction and on the evaluator itself."""
-    remarks = []
+def stability_sentences(result: Study) -> Iterator[str]:
+    """Yield sentences on friction and on the evaluator itself."""
     own = None if result.own is None else result.own.largest
     stiff = min(result.friction, key=lambda row: row.stick_period, default=None)
     if stiff is not None:
@@ -153,13 +154,12 @@ def stability_sentences(result: Study) -> list[str]:
         if axial:
             waves = f"Axial waves pass an element in {result.milliseconds(axial)}"
             friction += f". {waves}: no practical step resolves them, friction is quasi-static"
-        remarks.append(f"{friction}.")
+        yield f"{friction}."
     if result.evaluator is not None:
-        remarks.append(
+        yield (
             f"The evaluator itself: error {result.evaluator.error:.1g} of a force, "
             f"{_time(result.evaluator.time)} for a step of the deck."
         )
-    return remarks
 
 
 def stages_table(result: Study) -> DisplayTable | None:
@@ -198,7 +198,7 @@ def sentences(result: Study, part: str) -> list[str]:
     """Return the sentences below the tables of a part."""
     remarks = list(result.notes.get(part, ()))
     if part == "accuracy" and result.zone is not None:
-        remarks = [*remarks, *result.zone.notes, LIMITS]
+        remarks += [*result.zone.notes, LIMITS]
     return [*remarks, *stability_sentences(result)] if part == "stability" else remarks
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple, Protocol
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -37,16 +37,6 @@ class Reaction(NamedTuple):
     beside: FloatArray
     per_length: FloatArray
     damping: tuple[FloatArray, FloatArray] | None = None
-
-
-class BeamSoil(Protocol):
-    """Seabed under a beam."""
-
-    def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:
-        """Return the reaction at heights and velocities (n,) of the nodes, `step` after the kept state; 0 at rest."""
-
-    def keep(self) -> None:
-        """Keep the state of the last reaction, as its step has converged."""
 
 
 class _Curves:
@@ -89,7 +79,7 @@ class ElasticSoil:
             (0.5 * (1.0 - at), 0.5 * (1.0 + at), 0.5 * share) for at, share in zip(points, weights, strict=True)
         ]
 
-    def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:  # noqa: ARG002 - as `Soil` has it
+    def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:  # noqa: ARG002 - as other soils
         """Return the reaction at heights (n,) of the nodes."""
         count = len(w)
         nodal, diagonal, beside = np.zeros(count), np.zeros(count), np.zeros(count - 1)
@@ -120,12 +110,8 @@ class ElasticSoil:
 
     def _forces(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return force per length of elements (m,) and its derivative to the depth."""
-        rows = self._curves.rows
-        if len(rows) == len(z):
-            force, slope = self._curves.evaluate(z)
-        else:
-            force, slope = np.zeros(len(z)), np.zeros(len(z))
-            force[rows], slope[rows] = self._curves.evaluate(z[rows])
+        rows, force, slope = self._curves.rows, np.zeros(len(z)), np.zeros(len(z))
+        force[rows], slope[rows] = self._curves.evaluate(z[rows])
         if self._cut:
             force, slope = np.where(force > 0.0, force, 0.0), np.where(force > 0.0, slope, 0.0)
         for each in self._others:
@@ -204,3 +190,11 @@ class ScaledSoil:
     def keep(self) -> None:
         """Keep the state after the last reaction."""
         self._soil.keep()
+
+
+BeamSoil = ElasticSoil | SteppedSoil | ScaledSoil
+"""Seabed under a beam.
+
+`react` returns the reaction at heights and velocities (n,) of the nodes, a step after the kept state, or at rest after
+a step of 0. `keep` keeps the state of the last reaction, as its step has converged.
+"""

@@ -14,6 +14,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.contact.stretch import static_depth
 from mudline.model.curves import ForceCurve
 from mudline.model.results.stage_times import Timer, seconds_per_step
+from mudline.model.results.summary import followers
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.load_case import OwnSteps
 from mudline.model.scene.model import Scene
@@ -149,8 +150,7 @@ def change(value: float, reference: float) -> float:
 def _curves_in_use(scene: Scene, given: ContactInput) -> Iterator[tuple[SceneCurve, ForceCurve, float, float]]:
     """Yield the curves that elements follow, with diameter and submerged weight of the first of these elements."""
     for index, entry in enumerate(scene.laws.curves):
-        granted = np.array([grant.curve == index for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
-        rows = np.flatnonzero(granted & (scene.law == LawKind.CURVE))
+        rows = np.flatnonzero(followers(scene, index))
         if entry.curve is not None and rows.size:
             at = int(rows[0])
             weight = math.nan if given.weight is None else float(given.weight[at])
@@ -211,16 +211,14 @@ def curve_notes(scene: Scene, given: ContactInput) -> list[str]:
 # ------------------------------------------------------------------------------------------------------------- friction
 
 
-def friction_rows(scene: Scene, given: ContactInput, own: OwnSteps | None) -> list[FrictionRow]:
-    """Return the period 2 pi sqrt(m l/Kt) of a sticking node, for each block that gives friction."""
-    rows = []
+def friction_rows(scene: Scene, given: ContactInput, own: OwnSteps | None) -> Iterator[FrictionRow]:
+    """Yield the period 2 pi sqrt(m l/Kt) of a sticking node, for each block that gives friction."""
     for oscillation in oscillations(scene, given).found:
         if oscillation.kind == "friction" and oscillation.omega > 0.0:
             period = 2.0 * math.pi / oscillation.omega
             steps = None if own is None else period / own.largest
             name, line = oscillation.name.removeprefix("friction on "), scene.line_of(oscillation.where)
-            rows.append(FrictionRow(name, line, period, steps))
-    return rows
+            yield FrictionRow(name, line, period, steps)
 
 
 def axial_period(zone: Zone) -> float | None:

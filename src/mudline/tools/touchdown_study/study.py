@@ -154,11 +154,10 @@ class Study:
 def _model(zone: Zone) -> dict[str, Any]:
     """Return the model as in JSON."""
     ids, own, scheme = zone.scene.element_ids, zone.own, zone.scheme
-    numbers = [int(ids[at]) for at in (zone.elements[0], zone.elements[-1], own)]
     row = {
-        "first_element": numbers[0],
-        "last_element": numbers[1],
-        "touchdown_element": numbers[2],
+        "first_element": int(ids[zone.elements[0]]),
+        "last_element": int(ids[zone.elements[-1]]),
+        "touchdown_element": int(ids[own]),
         "tension": zone.beam.tension,
         "lying_length": cast("Catenary", zone.line.catenary).lying[-1][1],
         "weight": zone.beam.weight,
@@ -209,7 +208,7 @@ def study(
             if result.zone is not None:
                 result.extremes, left_out = extreme_rows(result.zone, own)
                 notes += left_out
-            result.friction = friction_rows(scene, given, own)
+            result.friction = list(friction_rows(scene, given, own))
             result.evaluator = evaluator_row(given, timer)
         elif part == "pruning":
             result.stages = pruned(scene, given, timer)
@@ -252,7 +251,9 @@ def _judged(study: Study) -> tuple[str, str, float | None]:
         return "", NOT_STUDIED, None
     if study.reference is None:
         return f"Not studied: {study.notes['accuracy'][-1]}", NOT_STUDIED, None
-    row, fine = next((each for each in study.steps if each.own), None), _advised(study.steps)
+    row = next((each for each in study.steps if each.own), None)
+    within = list(takewhile(lambda each: each.worst <= ADVISED, reversed(study.steps)))  # with all shorter steps
+    fine = within[-1].step if within else None
     last = study.steps[-1] if row is None else row
     mesh = _of_mesh(study, last)
     if study.own is None:
@@ -279,12 +280,6 @@ def _judged(study: Study) -> tuple[str, str, float | None]:
         text = f"{place} is too short to be judged here in reasonable time, and {tried} is {verdict}: {errors}"
         verdict = NOT_STUDIED
     return f"{text}. {mesh}".rstrip(), verdict, step
-
-
-def _advised(rows: Sequence[StepRow]) -> float | None:
-    """Return the largest step whose errors, and those of all shorter steps, are within 1 %."""
-    fine = list(takewhile(lambda row: row.worst <= ADVISED, reversed(rows)))
-    return fine[-1].step if fine else None
 
 
 def about(share: float) -> str:

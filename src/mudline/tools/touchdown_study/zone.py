@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple, cast
@@ -14,6 +15,7 @@ from mudline.model.contact import ContactInput
 from mudline.model.contact.input import LawAssignment
 from mudline.model.contact.stretch import cut_out, static_depth
 from mudline.model.curves import ForceCurve
+from mudline.model.scene.deck_values import FOOT
 from mudline.model.scene.load_case import Scheme, TopMotion, scheme_of, top_motion
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
@@ -256,7 +258,7 @@ def touchdown_zone(scene: Scene, given: ContactInput, heave: float | None, perio
         motion.period,
     )
     unit, wave = unit_names(scene.units).behind("length"), math.sqrt(tension / mass) * motion.period
-    notes = _limits(line, 2.0 * travel + 4.0 * size, right, wave, right / a, unit)
+    notes = list(_limits(line, 2.0 * travel + 4.0 * size, right, wave, right / a, unit))
     place, schemes = (elements, nodes, node - first), (scheme, scheme_line)
     return Zone(scene, given, pipe, line, *place, beam, *schemes, motion, travel, float(depths[1]), notes)
 
@@ -280,7 +282,7 @@ def _require(scene: Scene, own: int, weight: float, bending: float, mass: float)
 
 def _travel(scene: Scene, line: LineAtRest, motion: TopMotion) -> float:
     """Return the amplitude of the touchdown, from the resting shapes with the top moved a little."""
-    step = _DELTA / 0.3048 if scene.units == "imperial" else _DELTA
+    step = _DELTA / FOOT if scene.units == "imperial" else _DELTA
 
     def moved(surge: float, heave: float) -> float:
         ends = [touchdowns(line.moved(sign * surge, sign * heave), line.model.length)[-1].arc for sign in (1.0, -1.0)]
@@ -292,20 +294,18 @@ def _travel(scene: Scene, line: LineAtRest, motion: TopMotion) -> float:
         raise NotStudiedError(f"with the top moved by {step:.3g} the line has no resting shape: {error}") from error
 
 
-def _limits(line: LineAtRest, shortest: float, right: float, wave: float, slope: float, unit: str) -> list[str]:
-    """Return sentences on limits of the zone, of its waves and of small slopes."""
-    notes = []
+def _limits(line: LineAtRest, shortest: float, right: float, wave: float, slope: float, unit: str) -> Iterator[str]:
+    """Yield sentences on limits of the zone, of its waves and of small slopes."""
     if right < shortest:
-        notes.append(f"The zone is short: {right:.3g} of {shortest:.3g}{unit} right of the touchdown.")
+        yield f"The zone is short: {right:.3g} of {shortest:.3g}{unit} right of the touchdown."
     if right > wave / 4.0:
-        notes.append(
+        yield (
             f"The end of the zone reflects: {right:.3g}{unit} is more than a quarter of a wave, {wave / 4.0:.3g}{unit}."
         )
     if slope > _STEEP:
-        notes.append(f"Slopes are not small: {slope:.2f} at the end of the zone.")
+        yield f"Slopes are not small: {slope:.2f} at the end of the zone."
     if line.seabed.slope:
-        notes.append("The model is along the seabed, which slopes: the weight along it is left out.")
-    return notes
+        yield "The model is along the seabed, which slopes: the weight along it is left out."
 
 
 def jump(curve: ForceCurve, weight: float) -> float:
