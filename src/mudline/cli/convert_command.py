@@ -30,13 +30,7 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 
 
 @options.command("convert")
-@options.option(
-    "-o",
-    "--output",
-    type=options.OUTPUT_FILE,
-    metavar="OUT",
-    help="Write to this file; without it, or with -, to standard output.",
-)
+@options.output(help="Write to this file; without it, or with -, to standard output.")
 @options.option("--from", "source", type=_SOURCES, help="Read DECK in this format, not in that of its suffix.")
 @options.option("--to", "target", type=_FORMS, help="Write in this format, not in that of the suffix of OUT.")
 @options.flag("--sorted", "in_order", help="Write curves with their points sorted by ratio.")

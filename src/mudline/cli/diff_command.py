@@ -22,7 +22,7 @@ from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
-from mudline.cli.inputs import STDIN, GivenDeck, refuses_bad_decks
+from mudline.cli.inputs import STDIN, GivenDeck
 from mudline.cli.streams import emit, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckStatus
@@ -68,7 +68,6 @@ _OF_DECKS = {
 @options.stdin_name
 @options.units
 @options.common
-@refuses_bad_decks
 def command(
     *,
     before: str,

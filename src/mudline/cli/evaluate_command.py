@@ -18,7 +18,7 @@ from mudline.checks.verdict import errors_beside
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
-from mudline.cli.inputs import GivenDeck, refuses_bad_decks
+from mudline.cli.inputs import GivenDeck
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option
 from mudline.cli.result_files import beside, require_library, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
@@ -45,10 +45,8 @@ class Wanted(NamedTuple):
 @options.command("evaluate")
 @takes_inputs("Read the positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
 @click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
-@options.output_option(
-    "-o",
-    "--output",
-    type=options.OUTPUT_FILE,
+@options.output(
+    group=options.OUTPUT,
     metavar=f"OUT.{'|'.join(FORMS)}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
@@ -75,7 +73,6 @@ class Wanted(NamedTuple):
 @options.stdin_name
 @options.units
 @options.common
-@refuses_bad_decks
 def command(
     *,
     inputs: EvaluateInputs,

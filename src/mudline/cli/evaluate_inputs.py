@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
-from functools import wraps
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import click
 
@@ -15,7 +14,7 @@ from mudline.api import Scene as PublicScene
 from mudline.api import read_positions
 from mudline.basics.overwriting import reading
 from mudline.checks.engine import naming_causes
-from mudline.cli.options import ABOVE_ZERO, Command, input_option, option
+from mudline.cli.options import ABOVE_ZERO, Adding, gathered, input_option, option
 from mudline.cli.streams import reason
 from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
@@ -40,6 +39,12 @@ class EvaluateInputs:
     time_step: float | None = None
     headings: Mapping[str, str] = field(default_factory=dict)
     rest_shape: bool = False
+
+    def __post_init__(self) -> None:
+        if self.headings and self.positions is None:
+            raise click.UsageError("--columns is for positions from a CSV: give --positions too")
+        if self.rest_shape and self.positions is not None:
+            raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
 
     def scene(self, deck: Deck) -> Scene:
         """Return the scene of a deck; raises DeckError with the causes that prevent evaluation."""
@@ -78,24 +83,10 @@ class EvaluateInputs:
         return replace(positions, time=positions.time * self.time_step, timed=True)
 
 
-def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
+def takes_inputs(positions_help: str) -> Adding:
     """Add the options about the inputs; they reach the command as `inputs`, an EvaluateInputs."""
-
-    def added(command: Command) -> Command:
-        @wraps(command)
-        def given(**options: Any) -> int:  # noqa: ANN401 - of click
-            inputs = EvaluateInputs(**{each.name: options.pop(each.name) for each in fields(EvaluateInputs)})
-            if inputs.headings and inputs.positions is None:
-                raise click.UsageError("--columns is for positions from a CSV: give --positions too")
-            if inputs.rest_shape and inputs.positions is not None:
-                raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
-            return command(inputs=inputs, **options)
-
-        for add in reversed(_INPUTS):
-            given = add(given)
-        return input_option("--positions", metavar="FILE", help=positions_help)(given)
-
-    return added
+    positions = input_option("--positions", metavar="FILE", help=positions_help)
+    return gathered("inputs", EvaluateInputs, positions, *_INPUTS)
 
 
 _INPUTS = (

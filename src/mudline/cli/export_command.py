@@ -21,14 +21,7 @@ _TARGETS = ("moordyn", "orcaflex")
 
 @options.command("export")
 @options.option("--to", "target", type=click.Choice(_TARGETS), required=True, help="Write the input of this program.")
-@options.option(
-    "-o",
-    "--output",
-    required=True,
-    type=options.OUTPUT_FILE,
-    metavar="OUT",
-    help="Write to this file, and further files next to it.",
-)
+@options.output(required=True, help="Write to this file, and further files next to it.")
 @options.flag(
     "--rest-shape", help="Export the resting shape, not the deck's own coordinates; it is also written to OUT-rest.csv."
 )

@@ -8,7 +8,6 @@ import sys
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
@@ -17,8 +16,8 @@ import click
 from mudline.basics.files import alone_at, write_atomically
 from mudline.basics.overwriting import outputs, reading
 from mudline.checks.configuration import Configured
-from mudline.cli import FOUND, WRONG_USAGE, options
-from mudline.cli.streams import notify, notify_diagnostics, reason
+from mudline.cli import WRONG_USAGE, options
+from mudline.cli.streams import notify, reason
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be_deck
@@ -261,56 +260,27 @@ class GivenDecks(NamedTuple):
         return inputs
 
 
-def takes_decks(
-    metavar: str = "PATHS...", *, stdin: bool = True, units: bool = True
-) -> Callable[[options.Command], options.Command]:
+def takes_decks(metavar: str = "PATHS...", *, stdin: bool = True, units: bool = True) -> options.Adding:
     """Add the decks, the options about them and the common options; they reach the command as `decks`, a GivenDecks."""
-
-    def added(command: options.Command) -> options.Command:
-        @wraps(command)
-        def given(
-            *,
-            paths: tuple[str, ...],
-            every_file: bool,
-            stdin_name: str = "",
-            units: str | None = None,
-            encoding: str = "",
-            **others: object,
-        ) -> int:
-            return command(decks=GivenDecks(paths, every_file, stdin_name, units, encoding), **others)
-
-        decorated = options.common(given)
-        for option, included in (
-            (options.encoding, True),
-            (options.units, units),
-            (options.stdin_name, stdin),
-            (options.every_file, True),
-        ):
-            decorated = option(decorated) if included else decorated
-        return options.decks(metavar)(decorated)
-
-    return added
+    return options.gathered(
+        "decks",
+        GivenDecks,
+        click.argument("paths", nargs=-1, required=True, metavar=metavar, shell_complete=options.complete_files),
+        options.every_file,
+        *[options.stdin_name] * stdin,
+        *[options.units] * units,
+        options.encoding,
+        options.common,
+    )
 
 
-def takes_deck(command: options.Command) -> options.Command:
-    """Add DECK, the options about it and the common options; the deck reaches the command as `deck`, a GivenDeck."""
-
-    @wraps(command)
-    def given(*, deck: str, stdin_name: str, units: str | None, encoding: str, **others: object) -> int:
-        return command(deck=GivenDeck(deck, stdin_name, units, encoding), **others)
-
-    return options.deck(options.stdin_name(options.units(options.encoding(options.common(refuses_bad_decks(given))))))
-
-
-def refuses_bad_decks(command: options.Command) -> options.Command:
-    """Turn the DeckError of a command into messages and exit code 1."""
-
-    @wraps(command)
-    def guarded(**given: object) -> int:
-        try:
-            return command(**given)
-        except DeckError as error:
-            notify_diagnostics(error.diagnostics)
-            return FOUND
-
-    return guarded
+takes_deck = options.gathered(
+    "deck",
+    GivenDeck,
+    click.argument("path", metavar="DECK", shell_complete=options.complete_files),
+    options.stdin_name,
+    options.units,
+    options.encoding,
+    options.common,
+)
+"""Decorator that adds DECK, the options about it and the common options; the deck reaches the command as `deck`."""

@@ -8,7 +8,6 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
-from pathlib import Path
 from typing import cast
 
 import click
@@ -18,10 +17,10 @@ from mudline.basics.outside import refusing_outside
 from mudline.basics.overwriting import OverwriteError, refusing_overwriting
 from mudline.basics.spelling import nearest
 from mudline.basics.version import __version__
-from mudline.checks.configuration import ConfigurationError
+from mudline.checks.configuration import ConfigurationError, refuses_outside
 from mudline.cli import CLOSED_PIPE, DONE, FOUND, WRONG_USAGE, options, streams
-from mudline.cli.streams import notify, reason
-from mudline.language.diagnostics import PluginError
+from mudline.cli.streams import notify, notify_diagnostics, reason
+from mudline.language.diagnostics import DeckError, PluginError
 from mudline.tools.running.executors import RunError
 
 COMPLETION = "_MUDLINE_COMPLETE"
@@ -136,7 +135,7 @@ def _invoke(arguments: Sequence[str]) -> int:
             if not arguments:
                 click.echo(mudline.get_help(context), err=True)
                 return WRONG_USAGE
-            with refusing_outside(_refuses_outside):
+            with refusing_outside(refuses_outside):
                 return cast("int", mudline.invoke(context))
     except click.exceptions.Exit as leaving:
         return leaving.exit_code
@@ -146,6 +145,9 @@ def _invoke(arguments: Sequence[str]) -> int:
             click.echo(f"{error.ctx.get_usage()}\nTry '{path} --help' for help.\n", err=True)
         notify(error.format_message())
         return WRONG_USAGE
+    except DeckError as error:
+        notify_diagnostics(error.diagnostics)
+        return FOUND
     except PluginError as error:
         for fault in error.faults:
             notify(fault)
@@ -153,12 +155,6 @@ def _invoke(arguments: Sequence[str]) -> int:
     except MemoryError:
         notify("out of memory")
         return FOUND
-
-
-def _refuses_outside(folder: Path) -> bool:
-    from mudline.checks.configuration import refuses_outside  # noqa: PLC0415 - only for decks that name files outside
-
-    return refuses_outside(folder)
 
 
 def _unwritable(error: OSError) -> int:

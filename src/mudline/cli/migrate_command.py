@@ -22,13 +22,7 @@ from mudline.language.deck.loading import load_bytes
 
 
 @options.command("migrate")
-@options.option(
-    "-o",
-    "--output",
-    type=options.OUTPUT_FILE,
-    metavar="OUT",
-    help="Write to this file instead of the deck itself; for one deck only.",
-)
+@options.output(help="Write to this file instead of the deck itself; for one deck only.")
 @options.flag("--diff", help="Print what would change, and write nothing.")
 @options.flag(
     "--verify",

@@ -16,7 +16,7 @@ from mudline.language.deck.document import json_schema
 
 @options.command("schema")
 @click.argument("what", type=click.Choice(["deck", "config"]), default="deck")
-@options.option("-o", "--output", type=options.OUTPUT_FILE, metavar="OUT", help="Write to this file.")
+@options.output(help="Write to this file.")
 @options.common
 def command(*, what: str, output: str | None) -> int:
     """Print the JSON Schema of a deck in JSON or YAML, as `mudline convert` writes it, or of the configuration.
