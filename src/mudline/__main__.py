@@ -37,8 +37,14 @@ class Ended(KeyboardInterrupt):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command line and return its exit code. The version is printed before anything else is imported."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    if given == ["--version"] and _printed(f"mudline {__version__}\n"):
-        return 0
+    if given == ["--version"] and sys.stdout is not None:
+        try:
+            sys.stdout.write(f"mudline {__version__}\n")
+            sys.stdout.flush()
+        except OSError:
+            pass  # `run` tries again, and reports it
+        else:
+            return 0
     gc.set_threshold(*_COLLECTION)
     atexit.register(_leave)
     os.environ.setdefault(_THREADS, "1")
@@ -76,18 +82,6 @@ def _leave() -> None:
     """
     if "_duckdb" not in sys.modules:
         gc.freeze()
-
-
-def _printed(text: str) -> bool:
-    """Return True if standard output accepts a text; otherwise `run` tries again and reports the error."""
-    if sys.stdout is None:
-        return False
-    try:
-        sys.stdout.write(text)
-        sys.stdout.flush()
-    except OSError:
-        return False
-    return True
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
@@ -14,7 +13,7 @@ import click
 from click.core import ParameterSource
 from pydantic import TypeAdapter
 
-from mudline.basics.files import remove_left, write_atomically
+from mudline.basics.files import remove_left
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.overwriting import claim, reading
 from mudline.basics.quantities import csv_lines
@@ -36,7 +35,7 @@ from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.many_files import many_files
 from mudline.cli.result_files import is_installed, require_library
-from mudline.cli.streams import counted, emit, emit_json, encoded, make_folder, notify, reason
+from mudline.cli.streams import counted, emit, emit_json, make_folder, notify, write_text, writing
 from mudline.cli.view import Progress, View
 from mudline.model.results.cases import CASES, CaseSummary, worst_first, write_parquet
 from mudline.tools.running.executors import check_address
@@ -230,16 +229,12 @@ def _known(memory: Memory, key: str, file: Input, output: Path) -> Done | None:
 
 def _write_summary(rows: Sequence[CaseSummary], folder: Path) -> str:
     """Write the rows of all decks, in Parquet if installed, else as CSV. Return the path."""
-    stream = io.BytesIO()
     path = _summary_path(folder)
     if path.suffix == ".parquet":
-        write_parquet(rows, stream)
+        with writing(path) as stream:
+            write_parquet(rows, stream)
     else:
-        stream.writelines(map(encoded, _csv(rows)))
-    try:
-        write_atomically(path, stream.getvalue())
-    except OSError as error:
-        raise click.ClickException(f"{path.as_posix()}: cannot be written: {reason(error)}") from error
+        write_text(path, _csv(rows))
     return path.as_posix()
 
 

@@ -15,7 +15,7 @@ from mudline.api import read_positions
 from mudline.basics.overwriting import reading
 from mudline.checks.engine import naming_causes
 from mudline.cli.options import ABOVE_ZERO, Adding, gathered, input_option, option
-from mudline.cli.streams import reason
+from mudline.cli.streams import naming
 from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
@@ -139,10 +139,8 @@ fail_on = click.option(
 def read_file(path: str, read: Callable[[Path], _Read]) -> _Read:
     """Return the content of a file as read by `read`; ends the command if the file cannot be read."""
     reading(path)
-    try:
+    with naming(path):
         return read(Path(path))
-    except OSError as error:
-        raise click.ClickException(f"{path}: {reason(error)}") from error
 
 
 def read_headings(given: Sequence[str]) -> dict[str, str]:

@@ -17,7 +17,7 @@ from mudline.basics.files import alone_at, write_atomically
 from mudline.basics.overwriting import outputs, reading
 from mudline.checks.configuration import Configured
 from mudline.cli import WRONG_USAGE, options
-from mudline.cli.streams import notify, reason
+from mudline.cli.streams import naming, notify, reason
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be_deck
@@ -66,25 +66,23 @@ class Input(NamedTuple):
         if self.path is not None:
             reading(self.path)
             with open(self.path, "rb", buffering=0) as stream:  # noqa: PTH123 - as above
-                return self._in_utf8(stream.readall())
+                return self._recoded(stream.readall(), self.encoding, "utf-8")
         if sys.stdin is None:
             raise OSError(errno.EBADF, "standard input is closed")
         reading(None)
-        return self._in_utf8(sys.stdin.buffer.read())
-
-    def _in_utf8(self, data: bytes) -> bytes:
-        return self._recoded(data, self.encoding, "utf-8", f"it is not in {self.encoding}")
+        return self._recoded(sys.stdin.buffer.read(), self.encoding, "utf-8")
 
     def own_bytes(self, content: bytes) -> bytes:
         """Return a content in the encoding of the file; raises OSError for a letter that the encoding lacks."""
-        return self._recoded(content, "utf-8", self.encoding, f"{self.encoding} lacks a letter of it")
+        return self._recoded(content, "utf-8", self.encoding)
 
-    def _recoded(self, data: bytes, before: str, after: str, fault: str) -> bytes:
+    def _recoded(self, data: bytes, before: str, after: str) -> bytes:
         if not self.encoding or form_of(self.name) != "keyword":
             return data
         try:
             return data.decode(before).encode(after)
         except UnicodeError as error:
+            fault = f"it is not in {before}" if after == "utf-8" else f"{after} lacks a letter of it"
             raise OSError(errno.EILSEQ, f"{fault}: {error}") from error
 
 
@@ -182,25 +180,22 @@ class GivenDeck(NamedTuple):
     units: str | None
     encoding: str = ""
 
-    def content(self) -> tuple[bytes, str]:
-        """Return the content of the file and its name in messages; ends the command if the path cannot be read."""
+    def content(self) -> tuple[bytes, Input]:
+        """Return the content of the file, and the file; ends the command if the path cannot be read."""
         if os.path.isdir(self.path):  # noqa: PTH112 - as above
             raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
         file = _single(self.path, self.stdin_name)
         file = file._replace(encoding=self.encoding or Configured().encoding(file.path or file.name))
-        try:
-            return file.read(), file.name
-        except OSError as error:
-            raise click.ClickException(f"{self.path}: {reason(error)}") from error
+        with naming(self.path):
+            return file.read(), file
 
     def load(self, form: str | None = None) -> Deck:
         """Return the deck; ends the command if the path cannot be read. Raises DeckError."""
-        data, name = self.content()
+        data, file = self.content()
         from mudline.api import Deck  # noqa: PLC0415 - what only looks for files reads no deck
         from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - as above
 
-        folder = _single(self.path, self.stdin_name).folder
-        deck = load_bytes(data, name, form=form, units=self.units, folder=folder)
+        deck = load_bytes(data, file.name, form=form, units=self.units, folder=file.folder)
         reading_named_files(deck)
         return Deck(**vars(deck))
 

@@ -123,8 +123,13 @@ def run(arguments: Sequence[str]) -> int:
     except (ConfigurationError, OverwriteError, RunError) as error:
         notify(str(error))
         return WRONG_USAGE
-    except OSError as error:
-        return _unwritable(error)
+    except OSError as error:  # standard output is full or closed (EINVAL on Windows)
+        closed = isinstance(error, BrokenPipeError) or (os.name == "nt" and error.errno == errno.EINVAL)
+        if not closed:
+            with suppress(OSError):  # standard error may be full too
+                notify(f"the output cannot be written: {reason(error)}")
+        streams.drop()
+        return CLOSED_PIPE if closed else WRONG_USAGE
     return code
 
 
@@ -155,13 +160,3 @@ def _invoke(arguments: Sequence[str]) -> int:
     except MemoryError:
         notify("out of memory")
         return FOUND
-
-
-def _unwritable(error: OSError) -> int:
-    """Report that standard output is full, or end quietly if it is closed (EINVAL on Windows)."""
-    closed = isinstance(error, BrokenPipeError) or (os.name == "nt" and error.errno == errno.EINVAL)
-    if not closed:
-        with suppress(OSError):  # standard error may be full too
-            notify(f"the output cannot be written: {reason(error)}")
-    streams.drop()
-    return CLOSED_PIPE if closed else WRONG_USAGE

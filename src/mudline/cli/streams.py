@@ -123,6 +123,15 @@ def reason(error: OSError) -> str:
 # ----------------------------------------------------------------------------------------------------------- files
 
 
+@contextmanager
+def naming(path: object, fault: str = "") -> Iterator[None]:
+    """End the command with a path, the fault and its reason if the block cannot read or write something."""
+    try:
+        yield
+    except OSError as error:
+        raise click.ClickException(f"{path}: {fault}{reason(error)}") from error
+
+
 class UnwrittenError(click.ClickException):
     """Failure to write a file; its previous content remains."""
 
@@ -145,10 +154,8 @@ def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
 
 def make_folder(path: Path) -> None:
     """Create a folder and its parents; a failure ends the command."""
-    try:
+    with naming(path.as_posix(), "cannot be created: "):
         path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise click.ClickException(f"{path.as_posix()}: cannot be created: {reason(error)}") from error
 
 
 def write_bytes(path: Path, data: bytes) -> None:
