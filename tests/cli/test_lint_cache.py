@@ -23,7 +23,7 @@ from mudline.checks.registry import rules
 from mudline.checks.report import FileReport
 from mudline.cli import lint_run
 from mudline.cli.inputs import Input
-from mudline.cli.known_findings import known_findings
+from mudline.cli.lint_run import known_findings
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
 from mudline.tools.running import executors, remembered
 from tests.checks.corpus import CORPUS

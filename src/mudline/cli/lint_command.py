@@ -17,9 +17,8 @@ from mudline.checks.configuration import CallerSettings, ConfigurationError, Con
 from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
-from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import LintReport, complete, outputs
-from mudline.cli.lint_run import checked_settings, lint_files
+from mudline.cli.lint_run import checked_settings, known_findings, lint_files
 from mudline.cli.streams import notify
 from mudline.cli.view import View
 from mudline.language.deck.searching import is_deck
@@ -31,12 +30,13 @@ if TYPE_CHECKING:
 _RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"
 
 _rules = partial(
-    options.option, group=_RULES, multiple=True, metavar="CODE[,CODE...]", shell_complete=options.complete_rules
+    options.option,
+    group=_RULES,
+    multiple=True,
+    metavar="CODE[,CODE...]",
+    callback=lambda _context, _option, given: tuple(word for text in given for word in text.split(",") if word.strip()),
+    shell_complete=options.complete_rules,
 )
-
-
-def _words(given: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(word for text in given for word in text.split(",") if word.strip())
 
 
 @options.command("lint")
@@ -79,13 +79,12 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @options.run_option(
     "--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C."
 )
+@options.gathered("given", CallerSettings)
 @takes_decks()
 def command(
     *,
+    given: CallerSettings,
     decks: GivenDecks,
-    chosen: tuple[str, ...],
-    also: tuple[str, ...],
-    ignored: tuple[str, ...],
     fail_on: str | None,
     forms: tuple[str, ...],
     fix: bool,
@@ -93,8 +92,6 @@ def command(
     diff: bool,
     baseline: str | None,
     recording: bool,
-    dialect: str | None,
-    no_outside: bool,
     config: str | None,
     isolated: bool,
     force_exclude: bool,
@@ -110,7 +107,6 @@ def command(
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), or - for standard input. With -v, files of directories that are skipped are named too.
     """
-    given = CallerSettings(_words(chosen), _words(ignored), _words(also), dialect, decks.units, no_outside)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
     form, files = outputs(forms)
     if baseline and recording:

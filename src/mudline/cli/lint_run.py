@@ -1,4 +1,4 @@
-"""One run of `mudline lint`: the settings of each deck, its findings without the known ones, and fixed decks.
+"""One run of `mudline lint`: the settings of each deck, its findings, remembered or not, and fixed decks.
 
 Remembered files are not linted again. Further files are linted in this or in other processes, and reported in the order
 given. What lints is imported with the settings of the first file that is not remembered.
@@ -8,21 +8,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import closing
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from mudline.basics.outside import project_of
 from mudline.checks.configuration import CallerSettings, Configuration, Configured
 from mudline.checks.report import FileReport
 from mudline.cli.inputs import Input, Inputs
-from mudline.cli.known_findings import KnownFindings
 from mudline.cli.lint_report import LintReport
 from mudline.cli.many_files import many_files
-from mudline.cli.streams import counted, notify, reason, write_text
+from mudline.cli.streams import counted, naming, notify, write_text
 from mudline.cli.view import Progress, View
 from mudline.language.deck.forms import form_of
+from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
+from mudline.tools.running.remembered import Memory, of_working_folder
 
 if TYPE_CHECKING:
     from mudline.checks.engine import LintSettings
@@ -42,9 +44,8 @@ def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
     if recording:
         return Baseline(path.parent)
     try:
-        return read_baseline(path)
-    except OSError as error:
-        raise click.ClickException(f"{given}: the baseline cannot be read: {reason(error)}") from error
+        with naming(given, "the baseline cannot be read: "):
+            return read_baseline(path)
     except BaselineError as error:
         message = f"{given}: not a baseline: {error}: write a new one with --write-baseline"
         raise click.ClickException(message) from error
@@ -71,13 +72,8 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
     return fixing.lint_one(name, data, settings, folder)
 
 
-class _Read(NamedTuple):
-    """A file; `key` is the key of its report in the memory, if any, and `known` the remembered report."""
-
-    file: Input
-    data: bytes
-    key: str = ""
-    known: FileReport | None = None
+_Read = tuple[Input, bytes, str, FileReport | None]
+"""A file and its content, the key under which a new report is remembered, if any, and the remembered report."""
 
 
 def lint_files(
@@ -101,8 +97,8 @@ def lint_files(
         data = file.read()
         key = "" if known is None or file.path is None else known.key(file, data)
         if known is not None and key and (remembered := known.get(key, file.name)) is not None:
-            return _Read(file, data, known=remembered), None
-        return _Read(file, data, key), (file.name, data, settings().of(file.path or file.name), file.folder)
+            return (file, data, "", remembered), None
+        return (file, data, key, None), (file.name, data, settings().of(file.path or file.name), file.folder)
 
     recorded = _baseline(baseline, recording=recording)
     differs, documents = False, 0
@@ -155,3 +151,59 @@ def _delivered(
         return content, result
     unfixed = replace(settings.of(file.path or file.name), fixing=Fixing.NONE)
     return data, lint_one(file.name, data, unfixed, file.folder)
+
+
+# -------------------------------------------------------------------------------------------------------- remembering
+
+
+class KnownFindings:
+    """Reports on decks, by their content and settings."""
+
+    def __init__(self, memory: Memory, configured: Configured) -> None:
+        self.memory = memory
+        self._configured = configured
+
+    def key(self, file: Input, data: bytes) -> str:
+        """Return the key of the findings of a file.
+
+        Its name is part of the key: it gives units and form, and is in findings. So is its project: files outside are
+        not shown, and may be refused.
+        """
+        configuration = self._configured.of(file.path)
+        project = str(project_of(file.folder)) if file.folder else ""
+        return self.memory.key(str(configuration.path), configuration.content, project, file.name, data)
+
+    def get(self, key: str, name: str) -> FileReport | None:
+        """Return the report on a file; None if it is not known, or if a file that it depends on has changed."""
+        held = self.memory.get(key)
+        if held is None:
+            return None
+        return FileReport(name, tuple(_finding(**each) for each in held[1:]), coverage=Coverage(*held[0]))
+
+    def put(self, key: str, report: FileReport) -> None:
+        """Store the report on a file, which depends on the content of files that it names, and of plugins."""
+        from mudline.checks.registry import plugin_files  # noqa: PLC0415 - it imports all rules
+
+        held = [[*asdict(report.coverage).values()], *map(asdict, report.found)]
+        self.memory.put(key, held, (*report.looked_at, *plugin_files()))
+
+
+def known_findings(given: CallerSettings, configured: Configured) -> KnownFindings | None:
+    """Return the known findings under the settings of a run; None where no memory can be kept."""
+    memory = of_working_folder("lint", repr(given))
+    return None if memory is None else KnownFindings(memory, configured)
+
+
+def _finding(*, severity: str, fix: list[Any] | None, following: list[dict[str, Any]], **others: Any) -> Diagnostic:  # noqa: ANN401 - as JSON
+    """Return a finding from what JSON makes of it."""
+    return Diagnostic(
+        **others,
+        severity=Severity(severity),
+        fix=None if fix is None else _fix(*fix),
+        following=tuple(_finding(**each) for each in following),
+    )
+
+
+def _fix(applicability: str, message: str, edits: list[Any]) -> Fix:
+    made = tuple(Edit((line, column), (last, end), text) for (line, column), (last, end), text in edits)
+    return Fix(applicability, message, made)
