@@ -115,7 +115,6 @@ def command(
         return _print_folders((before, after), tolerance, decks_of_both, output_format, view)
     first, second = _pair(before, after, stdin_name, units)
     comparison = diff(first, second, tolerance=tolerance, strict=strict)
-    summary = summary_of(comparison)
     if output_format == "json":
         head = {
             "format": FORMAT,
@@ -126,13 +125,10 @@ def command(
             "spelling_differences": len(comparison.spelling),
         }
         emit([*_json_lines(head, "differences", map(asdict, comparison.differences)), "\n}\n"])
-    elif output_format == "markdown":
-        lines = difference_lines("", "", comparison, view)
-        emit(markdown(first.file, second.file, summary, lines, view))
     else:
-        names = ("", "") if view.quiet else (first.file, second.file)
-        shown = [*difference_lines(*names, comparison, view), *([] if view.quiet else [summary])]
-        view.lines([line] for line in shown)
+        names = ("", "") if view.quiet or output_format == "markdown" else (first.file, second.file)
+        lines = difference_lines(*names, comparison, view)
+        _print_lines((first.file, second.file), lines, summary_of(comparison), output_format, view)
     return FOUND if comparison.differences else DONE
 
 
@@ -185,13 +181,13 @@ def _print_folders(
         if deck.unread is not None:
             notify(deck.why)
     counts = Counter(deck.status for deck in decks)
-    *lines, summary = folder_lines(decks, counts, view)
     if output_format == "json":
         emit(_folders_json(folders, tolerance, decks, counts))
-    elif output_format == "markdown":
-        emit(markdown(*folders, str(summary), lines, view))
     else:
-        view.lines([line] for line in ([*lines, summary] if not view.quiet else lines))
+        names = {**{status: status.value for status in DeckStatus}, DeckStatus.FAILED: _NOT_COMPARED}
+        parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
+        summary = f"{counted(len(decks), 'deck')}: {', '.join(parts)}"
+        _print_lines(folders, folder_lines(decks, view), summary, output_format, view)
     if any(deck.unread for deck in decks):
         return WRONG_USAGE
     return DONE if counts[DeckStatus.EQUAL] == len(decks) else FOUND
@@ -233,13 +229,20 @@ def _folders_json(
 # ------------------------------------------------------------------------------------------------------ for people
 
 
+def _print_lines(names: tuple[str, str], lines: Iterable[Part], summary: str, output_format: str, view: View) -> None:
+    """Print differences and their summary, as lines or in Markdown."""
+    if output_format == "markdown":
+        emit(markdown(*names, summary, lines, view))
+    else:
+        view.lines([line] for line in (lines if view.quiet else [*lines, summary]))
+
+
 def difference_lines(before: str, after: str, comparison: Comparison, view: View) -> Iterator[Part]:
     """Yield the differences of two decks by group, below the names of the decks unless these are empty."""
-    all_differences = comparison.differences
-    if all_differences and before:
+    if comparison.differences and before:
         yield visible(f"--- {before}"), "bold"
         yield visible(f"+++ {after}"), "bold"
-    for group, members in groupby(all_differences, key=lambda difference: difference.group):
+    for group, members in groupby(comparison.differences, key=lambda difference: difference.group):
         differences = list(members)
         yield visible(group), "cyan"
         if not view.verbose:
@@ -255,8 +258,8 @@ def difference_lines(before: str, after: str, comparison: Comparison, view: View
             yield f"  and {len(differences) - most} more (-v shows all)"
 
 
-def folder_lines(decks: Iterable[ComparedDeck], counts: Mapping[DeckStatus, int], view: View) -> Iterator[Part]:
-    """Yield the differences of the decks of two folders, then the counts of decks."""
+def folder_lines(decks: Iterable[ComparedDeck], view: View) -> Iterator[Part]:
+    """Yield the differences of the decks of two folders."""
     for deck in decks:
         if deck.status is DeckStatus.CHANGED:
             yield from difference_lines(deck.before, deck.after, deck.comparison, view)
@@ -266,9 +269,6 @@ def folder_lines(decks: Iterable[ComparedDeck], counts: Mapping[DeckStatus, int]
         else:
             mark, style, words = _OF_DECKS[deck.status]
             yield visible(f"{mark} {deck.name}: {words}"), style
-    names = {**{status: status.value for status in DeckStatus}, DeckStatus.FAILED: _NOT_COMPARED}
-    parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
-    yield f"{counted(sum(counts.values()), 'deck')}: {', '.join(parts)}"
 
 
 def summary_of(comparison: Comparison) -> str:
