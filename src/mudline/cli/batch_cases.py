@@ -138,7 +138,6 @@ class Order(NamedTuple):
     inputs: EvaluateInputs
     output: Path
     units: str | None
-    summary_only: bool
 
     def from_anywhere(self) -> Order:
         """Return the order for a worker with another working folder; the files have the same absolute paths there."""
@@ -211,9 +210,7 @@ def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], dict[st
     path = order.output / order.case.result
     path.parent.mkdir(parents=True, exist_ok=True)
     watch = ContactWatch(evaluation)
-    if order.summary_only:
-        if evaluation.time is None:
-            raise click.ClickException(f"--summary-only is for time steps: {order.inputs.positions} is one state")
+    if order.inputs.summary_only:
         series = SeriesSummary(evaluation, *SERIES, "case")
         evaluation.run([series, watch])
         written = [path, *write_tables(series_tables(series, watch.warnings()), path).values()]

@@ -32,8 +32,7 @@ from mudline.cli.batch_cases import (
 )
 from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
-from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, takes_decks
-from mudline.cli.many_files import many_files
+from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.result_files import is_installed, require_library
 from mudline.cli.streams import counted, emit, emit_json, make_folder, notify, write_text, writing
 from mudline.cli.view import Progress, View
@@ -79,7 +78,6 @@ def command(
     *,
     inputs: EvaluateInputs,
     decks: GivenDecks,
-    summary_only: bool,
     output: str,
     form: str | None,
     output_format: str,
@@ -100,8 +98,6 @@ def command(
         check_address(scheduler)
     if STDIN in decks.paths:
         raise click.UsageError("- is one deck, from standard input: mudline evaluate takes it")
-    if summary_only and inputs.positions is None:
-        raise click.UsageError("--summary-only is for time steps: give series with --positions")
     form = form or ("parquet" if is_installed("parquet") else "npz")
     require_library(form)
     check_positions(inputs.positions)
@@ -117,8 +113,8 @@ def command(
     make_folder(folder)
     for path in (_summary_path(folder), *(path for case in cases for path in results_of(case, folder))):
         claim(path)
-    memory = Memory(folder / _MEMORY, repr((inputs, decks.units, form, summary_only)))
-    order = Order(cases[0], b"", inputs, folder, decks.units, summary_only)
+    memory = Memory(folder / _MEMORY, repr((inputs, decks.units, form)))
+    order = Order(cases[0], b"", inputs, folder, decks.units)
     done, taken = _evaluated(selected, cases, order, memory, view, fresh=no_cache, jobs=jobs, scheduler=scheduler)
     ranked = worst_first(result.row for result in done)
     summary = _write_summary(ranked, folder)

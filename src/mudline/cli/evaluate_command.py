@@ -85,7 +85,6 @@ def command(
     plot_elements: tuple[int, ...],
     plan_only: bool,
     table: str,
-    summary_only: bool,
     fail_on: str,
     output_format: str,
     view: View,
@@ -98,12 +97,10 @@ def command(
     """
     if len(decks) > 1 or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
         raise click.UsageError("evaluate takes one deck: several decks and folders are for mudline batch")
-    if summary_only:
+    if inputs.summary_only:
         for option, given in {"--against": against, "--plot": plot.path, "--plan": plan_only}.items():
             if given:
                 raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
-        if inputs.positions is None:
-            raise click.UsageError("--summary-only is for time steps: give a series with --positions")
     if plot_elements and plot.path is None:
         raise click.UsageError("--plot-elements is for a plot: give --plot")
     form = options.form_of_file(output, FORMS) if output else ""
@@ -116,9 +113,7 @@ def command(
     source = click.get_current_context().get_parameter_source("table")
     every = table == "elements" and source is not ParameterSource.DEFAULT
     evaluation, wanted = inputs.evaluation(deck), Wanted(output, output_format, table, view, every)
-    if summary_only:
-        if evaluation.time is None:
-            raise click.UsageError(f"--summary-only is for time steps: {inputs.positions} is one state")
+    if inputs.summary_only:
         warnings = _evaluate_series(evaluation, wanted)
     else:
         warnings = _evaluate_one(evaluation, wanted, plot, plot_elements, against)

@@ -39,12 +39,15 @@ class EvaluateInputs:
     time_step: float | None = None
     headings: Mapping[str, str] = field(default_factory=dict)
     rest_shape: bool = False
+    summary_only: bool = False
 
     def __post_init__(self) -> None:
         if self.headings and self.positions is None:
             raise click.UsageError("--columns is for positions from a CSV: give --positions too")
         if self.rest_shape and self.positions is not None:
             raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
+        if self.summary_only and self.positions is None:
+            raise click.UsageError("--summary-only is for time steps: give a series with --positions")
 
     def scene(self, deck: Deck) -> Scene:
         """Return the scene of a deck; raises DeckError with the causes that prevent evaluation."""
@@ -60,7 +63,10 @@ class EvaluateInputs:
 
             rest = rest_shape(scene)
             return evaluate_scene(scene, rest.positions, self.tension, at_rest=rest.sentences(scene.units))
-        return evaluate_scene(scene, self._placed(scene), self.tension)
+        evaluation = evaluate_scene(scene, self._placed(scene), self.tension)
+        if self.summary_only and evaluation.time is None:
+            raise click.UsageError(f"--summary-only is for time steps: {self.positions} is one state")
+        return evaluation
 
     def prepared(self, deck: Deck) -> Prepared:
         """Return the evaluator of a deck, for its plan. Raises DeckError, click.ClickException."""

@@ -17,9 +17,8 @@ import click
 from mudline.basics.outside import project_of
 from mudline.checks.configuration import CallerSettings, Configuration, Configured
 from mudline.checks.report import FileReport
-from mudline.cli.inputs import Input, Inputs
+from mudline.cli.inputs import Input, Inputs, many_files
 from mudline.cli.lint_report import LintReport
-from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, naming, notify, write_text
 from mudline.cli.view import Progress, View
 from mudline.language.deck.forms import form_of

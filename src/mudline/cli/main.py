@@ -58,22 +58,15 @@ class _Commands(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
         return list(COMMANDS)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name == "help":
             return cast("click.Command", _help)
-        module = import_module(f"mudline.cli.{cmd_name}_command") if cmd_name in COMMANDS else None
-        return cast("click.Command | None", module and module.command)
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        if args[0] not in COMMANDS:
-            if ctx.resilient_parsing:  # a shell asks for completions, and shows no errors
-                return None, None, []
-            near = nearest(args[0], self.list_commands(ctx))
-            hint = f": did you mean {near}?" if near else ""
-            ctx.fail(f"unknown command {args[0]!r}{hint}")
-        return super().resolve_command(ctx, args)
+        if cmd_name in COMMANDS:
+            return cast("click.Command", import_module(f"mudline.cli.{cmd_name}_command").command)
+        if not ctx.resilient_parsing:  # a shell that asks for completions shows no errors
+            near = nearest(cmd_name, COMMANDS)
+            ctx.fail(f"unknown command {cmd_name!r}{f': did you mean {near}?' if near else ''}")
+        return None
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's signature
         with formatter.section("Commands"):

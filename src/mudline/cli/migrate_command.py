@@ -12,8 +12,7 @@ from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, require_text, takes_decks
-from mudline.cli.many_files import each_deck
+from mudline.cli.inputs import GivenDecks, Input, Inputs, each_deck, reading_named_files, require_text, takes_decks
 from mudline.cli.streams import emit_deck, notify, write_bytes
 from mudline.cli.view import Progress, View
 from mudline.editing.migration.migrating import Verification
