@@ -17,8 +17,7 @@ from mudline.basics.files import recording_looks
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
 from mudline.cli.result_files import beside, result_files, write_tables
-from mudline.cli.streams import UnwrittenError, reason
-from mudline.cli.view import View
+from mudline.cli.streams import UnwrittenError, View, reason
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.results.cases import CaseSummary, case_summary

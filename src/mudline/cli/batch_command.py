@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from contextlib import closing, contextmanager
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 import click
 from click.core import ParameterSource
@@ -34,8 +33,7 @@ from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.result_files import is_installed, require_library
-from mudline.cli.streams import counted, emit, emit_json, make_folder, notify, write_text, writing
-from mudline.cli.view import Progress, View
+from mudline.cli.streams import Progress, View, counted, emit, emit_json, make_folder, notify, write_text, writing
 from mudline.model.results.cases import CASES, CaseSummary, worst_first, write_parquet
 from mudline.tools.running.executors import check_address
 from mudline.tools.running.remembered import Memory, state
@@ -136,13 +134,8 @@ def command(
 # --------------------------------------------------------------------------------------------------------- evaluating
 
 
-class _Task(NamedTuple):
-    """A deck with the key of its results and the files that it depends on; `known` is a result that needs no work."""
-
-    file: Input
-    key: str = ""
-    files: Sequence[str] = ()
-    known: Done | None = None
+_Task = tuple[Input, str, Sequence[str], Done | None]
+"""A deck, the key of its results, the files that it depends on, and a result that needs no work."""
 
 
 def _evaluated(
@@ -156,7 +149,9 @@ def _evaluated(
     jobs: int,
     scheduler: str | None,
 ) -> tuple[list[Done], int]:
-    """Evaluate the decks and remember new results. Return all results, and how many came from an earlier run.
+    """Evaluate the decks; return all results, and how many came from an earlier run.
+
+    New results are remembered, also if the run is interrupted; half-written files are then removed.
 
     A deck fails if it cannot be read, if it has no positions, or if the program fails.
     """
@@ -167,44 +162,38 @@ def _evaluated(
         try:
             positions = positions_of(case, given.positions)
         except click.ClickException as error:
-            return _Task(file, known=failed(file.name, error.message)), None
+            return (file, "", (), failed(file.name, error.message)), None
         files = [path for path in (positions, given.elements) if path]
         for path in files:
             reading(path)
         key = memory.key(file.name, case.result, data, *files)
         if not fresh and (known := _known(memory, key, file, first.output)):
-            return _Task(file, known=known), None
+            return (file, key, (), known), None
         order = first._replace(case=case, data=data, inputs=replace(given, positions=positions))
         near = [os.path.abspath(path) for path in files]  # noqa: PTH100 - links stay what they are
-        return _Task(file, key, near), (order if scheduler is None else order.from_anywhere(),)
+        return (file, key, near, None), (order if scheduler is None else order.from_anywhere(),)
 
     done: dict[Input, Done] = {}
     taken = 0
     results = many_files(decks, prepared, evaluate_case, Progress(len(cases), view), jobs=jobs, scheduler=scheduler)
-    with _saved(memory, cases, first.output), closing(results):
-        for task, result in results:
-            if result is not None:
-                done[task.file] = result
-                if not result.row.failed:
-                    held = _REMEMBERED.dump_python(result._replace(read=()), mode="json")
-                    memory.put(task.key, held, [*result.read, *task.files])
-            elif task.known is not None:
-                done[task.file] = task.known
-                taken += not task.known.row.failed
-    return [done.get(file) or failed(file.name, decks.undone[file]) for file in decks.files], taken
-
-
-@contextmanager
-def _saved(memory: Memory, cases: Sequence[BatchCase], folder: Path) -> Iterator[None]:
-    """Save the results when the block ends, also when the run is interrupted; half-written files are then removed."""
     try:
-        yield
+        with closing(results):
+            for (file, key, near, known), result in results:
+                if result is not None:
+                    done[file] = result
+                    if not result.row.failed:
+                        held = _REMEMBERED.dump_python(result._replace(read=()), mode="json")
+                        memory.put(key, held, [*result.read, *near])
+                elif known is not None:
+                    done[file] = known
+                    taken += not known.row.failed
     except BaseException:
-        for place in {(folder / case.result).parent for case in cases}:
-            remove_left(str(place))  # of processes that were ended
+        for place in {(first.output / case.result).parent for case in cases}:
+            remove_left(str(place))  # half-written files of processes that were ended
         raise
     finally:
         memory.save()
+    return [done.get(file) or failed(file.name, decks.undone[file]) for file in decks.files], taken
 
 
 # -------------------------------------------------------------------------------------------------------- remembering

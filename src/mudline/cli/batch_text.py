@@ -7,8 +7,7 @@ from pathlib import Path
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, Value, number, text
 from mudline.basics.quantities import shown
-from mudline.cli.streams import counted
-from mudline.cli.view import View
+from mudline.cli.streams import View, counted
 from mudline.model.results.cases import CASES, CaseSummary
 
 _DIGITS = 5

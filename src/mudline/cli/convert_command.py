@@ -10,8 +10,7 @@ import numpy as np
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, require_text, takes_deck
-from mudline.cli.streams import emit, notify, require, write_text
-from mudline.cli.view import View
+from mudline.cli.streams import View, emit, notify, require, write_text
 from mudline.language.codes.lines import SYN001
 from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.keyword_text import with_raw_lines

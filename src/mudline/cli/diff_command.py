@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from itertools import accumulate, groupby
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 import numpy as np
@@ -23,16 +23,12 @@ from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.inputs import STDIN, GivenDeck
-from mudline.cli.streams import emit, notify, notify_diagnostics
-from mudline.cli.view import View
+from mudline.cli.streams import Part, View, emit, notify, notify_diagnostics
 from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckStatus
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value
 from mudline.editing.comparison.sets import spans_of, text_of
 from mudline.language.deck.loading import load_bytes
-
-if TYPE_CHECKING:  # rich is imported where there is a terminal or colour
-    from mudline.cli.printing import Part
 
 FORMAT = "mudline-diff/1"
 FOLDER_FORMAT = "mudline-diff-folders/1"

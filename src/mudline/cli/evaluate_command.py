@@ -21,8 +21,7 @@ from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation
 from mudline.cli.inputs import GivenDeck
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option
 from mudline.cli.result_files import beside, require_library, result_files, write_tables
-from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
-from mudline.cli.view import Progress, View
+from mudline.cli.streams import Progress, View, counted, emit, emit_json, notify, notify_diagnostics
 from mudline.model.results.against import ResultComparison, read_reference
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
 from mudline.model.results.forms import FORMS, Sink, contents_of, plan_rows, tables_of

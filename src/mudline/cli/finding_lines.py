@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
-from mudline.cli.view import View
+from mudline.cli.streams import Line, Part, View
 from mudline.language.diagnostics import Diagnostic, Severity, Span
 from mudline.language.syntax.source import Source
-
-if TYPE_CHECKING:  # rich is imported where there is a terminal or colour
-    from mudline.cli.printing import Line, Part
 
 EXCERPT_WIDTH = 120
 """Columns of a source line that are shown without a terminal."""

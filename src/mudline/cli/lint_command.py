@@ -19,8 +19,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
 from mudline.cli.lint_report import LintReport, complete, outputs
 from mudline.cli.lint_run import checked_settings, known_findings, lint_files
-from mudline.cli.streams import notify
-from mudline.cli.view import View
+from mudline.cli.streams import View, notify
 from mudline.language.deck.searching import is_deck
 from mudline.language.diagnostics import Severity
 

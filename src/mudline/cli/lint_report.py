@@ -18,8 +18,7 @@ from mudline.checks.output import TEXT, form, form_names, visible
 from mudline.checks.pages import GROUP
 from mudline.cli.finding_lines import print_findings, print_summary
 from mudline.cli.inputs import Input
-from mudline.cli.streams import counted, emit, notify, say, write_text
-from mudline.cli.view import View
+from mudline.cli.streams import View, counted, emit, notify, say, write_text
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
 from mudline.language.syntax.source import Source
 

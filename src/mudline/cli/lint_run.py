@@ -19,8 +19,7 @@ from mudline.checks.configuration import CallerSettings, Configuration, Configur
 from mudline.checks.report import FileReport
 from mudline.cli.inputs import Input, Inputs, many_files
 from mudline.cli.lint_report import LintReport
-from mudline.cli.streams import counted, naming, notify, write_text
-from mudline.cli.view import Progress, View
+from mudline.cli.streams import Progress, View, counted, naming, notify, write_text
 from mudline.language.deck.forms import form_of
 from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
 from mudline.tools.running.remembered import Memory, of_working_folder

@@ -12,7 +12,7 @@ import click
 
 from mudline.basics import files
 from mudline.basics.overwriting import claim
-from mudline.cli.view import View
+from mudline.cli.streams import View
 
 Command = Callable[..., int]
 

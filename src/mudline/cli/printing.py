@@ -15,6 +15,7 @@ from rich.text import Text
 from mudline.basics.display import Cell, DisplayTable
 from mudline.basics.quantities import shown
 from mudline.checks.output import visible
+from mudline.cli.streams import Part
 
 if TYPE_CHECKING:
     from rich.progress import Progress
@@ -27,11 +28,6 @@ _GAPS = (2, 1)
 """Blanks between columns, and between the columns of a table that is too wide otherwise."""
 _NARROWEST = 12
 """Width below which columns of text are not wrapped."""
-
-Part = str | tuple[str, str]
-"""Piece of a line: a text, or a text and its style."""
-Line = Sequence[Part]
-"""Pieces of a line; a single text is not a line."""
 
 
 class _Console(Console):

@@ -16,8 +16,7 @@ from mudline.checks.pages import origin
 from mudline.checks.registry import UnknownRule, rules, select
 from mudline.cli import DONE, options
 from mudline.cli.finding_lines import STYLES
-from mudline.cli.streams import emit_json
-from mudline.cli.view import View
+from mudline.cli.streams import View, emit_json
 from mudline.language.rules import Rule
 
 _PAGE = 100

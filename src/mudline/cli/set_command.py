@@ -16,8 +16,7 @@ from mudline.checks.rules.unusual import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, each_deck, require_text, takes_decks
-from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
-from mudline.cli.view import Progress, View
+from mudline.cli.streams import Progress, View, emit, emit_deck, notify, notify_diagnostics
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
 from mudline.editing.assignment.conditions import ConditionError, parse_condition
 from mudline.editing.assignment.fields import FieldTarget, target_of
