@@ -15,7 +15,6 @@ from rich.text import Text
 from mudline.basics.display import Cell, DisplayTable
 from mudline.basics.quantities import shown
 from mudline.checks.output import visible
-from mudline.cli.streams import Part
 
 if TYPE_CHECKING:
     from rich.progress import Progress
@@ -63,7 +62,7 @@ class Printer:
         """Return text of a deck in a form that the terminal can show."""
         return visible(text, self.encoding)
 
-    def line(self, *parts: Part, fold: bool = True) -> None:
+    def line(self, *parts: str | tuple[str, str], fold: bool = True) -> None:
         """Print a line; on a terminal a long line is wrapped between words."""
         self._console.print(Text.assemble(*parts), soft_wrap=not fold)
 
