@@ -15,7 +15,7 @@ from mudline.checks.output import visible_lines
 from mudline.checks.pages import origin
 from mudline.checks.registry import UnknownRule, rules, select
 from mudline.cli import DONE, options
-from mudline.cli.finding_lines import STYLES
+from mudline.cli.lint_report import STYLES
 from mudline.cli.streams import View, emit_json
 from mudline.language.rules import Rule
 
