@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 import click
 
@@ -22,9 +22,6 @@ from mudline.cli.lint_run import checked_settings, known_findings, lint_files
 from mudline.cli.streams import View, notify
 from mudline.language.deck.searching import is_deck
 from mudline.language.diagnostics import Severity
-
-if TYPE_CHECKING:
-    from mudline.checks.settings import Settings
 
 _RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"
 
@@ -112,8 +109,7 @@ def command(
         claim(baseline, "--baseline")
     Configured(config, isolated)  # wrong usage is reported once, before anything is watched
 
-    def settings() -> Settings:
-        return checked_settings(config, given, fixing, isolated=isolated)
+    settings = partial(checked_settings, config, given, fixing, isolated=isolated)
 
     def once() -> int:
         configured = Configured(config, isolated)
@@ -172,7 +168,7 @@ def watched(once: Callable[[], int], paths: Sequence[str], view: View) -> NoRetu
         try:
             once()
         except (ConfigurationError, click.ClickException) as error:
-            notify(error.format_message() if isinstance(error, click.ClickException) else str(error))
+            notify(str(error))
         view.note(f"{time.strftime('%H:%M:%S')}: waiting for changes; Ctrl-C ends")
         wait_for_change(paths, before)
 
