@@ -18,10 +18,11 @@ from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
 from mudline.cli.lint_report import LintReport, complete, outputs
-from mudline.cli.lint_run import checked_settings, known_findings, lint_files
+from mudline.cli.lint_run import checked_settings, lint_files
 from mudline.cli.streams import View, notify
 from mudline.language.deck.searching import is_deck
 from mudline.language.diagnostics import Severity
+from mudline.tools.running.remembered import of_working_folder
 
 _RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"
 
@@ -121,9 +122,9 @@ def command(
         report = LintReport(
             form, files, view, configured, fail_on, statistics=statistics, aside=aside, fixing=fix or diff
         )
-        known = None if uncached or fix or diff else known_findings(given, configured)
+        memory = None if uncached or fix or diff else of_working_folder("lint", repr(given))
         failing = lint_files(
-            inputs, cache(settings), report, known, baseline, recording=recording, diff=diff, jobs=jobs
+            inputs, cache(settings), report, memory, baseline, recording=recording, diff=diff, jobs=jobs
         )
         return max(inputs.code, FOUND if failing and not exit_zero else DONE)
 

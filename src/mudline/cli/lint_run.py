@@ -22,7 +22,7 @@ from mudline.cli.lint_report import LintReport
 from mudline.cli.streams import Progress, View, counted, naming, notify, write_text
 from mudline.language.deck.forms import form_of
 from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
-from mudline.tools.running.remembered import Memory, of_working_folder
+from mudline.tools.running.remembered import Memory
 
 if TYPE_CHECKING:
     from mudline.checks.engine import LintSettings
@@ -78,7 +78,7 @@ def lint_files(
     inputs: Inputs,
     settings: Callable[[], Settings],
     report: LintReport,
-    known: KnownFindings | None,
+    memory: Memory | None,
     baseline: str | None,
     *,
     recording: bool,
@@ -93,9 +93,9 @@ def lint_files(
 
     def prepared(file: Input) -> tuple[_Read, tuple[str, bytes, LintSettings, Path | None] | None]:
         data = file.read()
-        key = "" if known is None or file.path is None else known.key(file, data)
-        if known is not None and key and (remembered := known.get(key, file.name)) is not None:
-            return (file, data, "", remembered), None
+        key = "" if memory is None or file.path is None else key_of(memory, report.configured, file, data)
+        if memory is not None and key and (held := memory.get(key)) is not None:
+            return (file, data, "", remembered(held, file.name)), None
         return (file, data, key, None), (file.name, data, settings().of(file.path or file.name), file.folder)
 
     recorded = _baseline(baseline, recording=recording)
@@ -103,10 +103,10 @@ def lint_files(
     jobs = 1 if report.fixing else jobs  # another deck may continue a deck that is being fixed
     progress = Progress(len(inputs.files), report.view, shown=False)
     with closing(many_files(inputs, prepared, lint_one, progress, jobs=jobs)) as results:
-        for (file, data, key, remembered), linted in results:
-            result = linted or remembered or FileReport(file.name, ())
-            if known is not None and key:
-                known.put(key, result)
+        for (file, data, key, known), linted in results:
+            result = linted or known or FileReport(file.name, ())
+            if memory is not None and key:
+                remember(memory, key, result)
             content = data
             if report.fixing:
                 documents += form_of(file.name) != "keyword"
@@ -120,8 +120,8 @@ def lint_files(
                 findings = recorded.unknown(findings, content, path)
             report.add(file, content, findings, len(result.fixed))
             report.coverage.add(result.coverage)
-    if known is not None:
-        known.memory.save()
+    if memory is not None:
+        memory.save()
     if documents:
         notify(f"{counted(documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
     report.finish()
@@ -154,42 +154,28 @@ def _delivered(
 # -------------------------------------------------------------------------------------------------------- remembering
 
 
-class KnownFindings:
-    """Reports on decks, by their content and settings."""
+def key_of(memory: Memory, configured: Configured, file: Input, data: bytes) -> str:
+    """Return the key of the findings of a file.
 
-    def __init__(self, memory: Memory, configured: Configured) -> None:
-        self.memory = memory
-        self._configured = configured
-
-    def key(self, file: Input, data: bytes) -> str:
-        """Return the key of the findings of a file.
-
-        Its name is part of the key: it gives units and form, and is in findings. So is its project: files outside are
-        not shown, and may be refused.
-        """
-        configuration = self._configured.of(file.path)
-        project = str(project_of(file.folder)) if file.folder else ""
-        return self.memory.key(str(configuration.path), configuration.content, project, file.name, data)
-
-    def get(self, key: str, name: str) -> FileReport | None:
-        """Return the report on a file; None if it is not known, or if a file that it depends on has changed."""
-        held = self.memory.get(key)
-        if held is None:
-            return None
-        return FileReport(name, tuple(_finding(**each) for each in held[1:]), coverage=Coverage(*held[0]))
-
-    def put(self, key: str, report: FileReport) -> None:
-        """Store the report on a file, which depends on the content of files that it names, and of plugins."""
-        from mudline.checks.registry import plugin_files  # noqa: PLC0415 - it imports all rules
-
-        held = [[*asdict(report.coverage).values()], *map(asdict, report.found)]
-        self.memory.put(key, held, (*report.looked_at, *plugin_files()))
+    Its name is part of the key: it gives units and form, and is in findings. So is its project: files outside are not
+    shown, and may be refused.
+    """
+    configuration = configured.of(file.path)
+    project = str(project_of(file.folder)) if file.folder else ""
+    return memory.key(str(configuration.path), configuration.content, project, file.name, data)
 
 
-def known_findings(given: CallerSettings, configured: Configured) -> KnownFindings | None:
-    """Return the known findings under the settings of a run; None where no memory can be kept."""
-    memory = of_working_folder("lint", repr(given))
-    return None if memory is None else KnownFindings(memory, configured)
+def remember(memory: Memory, key: str, report: FileReport) -> None:
+    """Store the report on a file, which depends on the content of files that it names, and of plugins."""
+    from mudline.checks.registry import plugin_files  # noqa: PLC0415 - it imports all rules
+
+    held = [[*asdict(report.coverage).values()], *map(asdict, report.found)]
+    memory.put(key, held, (*report.looked_at, *plugin_files()))
+
+
+def remembered(held: list[Any], name: str) -> FileReport:
+    """Return the report on a file from what a memory holds."""
+    return FileReport(name, tuple(_finding(**each) for each in held[1:]), coverage=Coverage(*held[0]))
 
 
 def _finding(*, severity: str, fix: list[Any] | None, following: list[dict[str, Any]], **others: Any) -> Diagnostic:  # noqa: ANN401 - as JSON
