@@ -10,7 +10,6 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from itertools import accumulate, groupby
-from typing import Any
 
 import click
 import numpy as np
@@ -104,11 +103,10 @@ def command(
         raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
     if all(folders):
         try:
-            words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": not every_file}
-            decks_of_both = diff(before, after, tolerance=tolerance, **words).decks
+            both = diff(before, after, tolerance=tolerance, strict=strict, units=units, gitignore=not every_file)
         except FileNotFoundError:
             raise click.ClickException(f"{before}, {after}: no deck in these folders") from None
-        return _print_folders((before, after), tolerance, decks_of_both, output_format, view)
+        return _print_folders((before, after), tolerance, both.decks, output_format, view)
     first, second = _pair(before, after, stdin_name, units)
     comparison = diff(first, second, tolerance=tolerance, strict=strict)
     if output_format == "json":

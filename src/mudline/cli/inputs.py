@@ -166,7 +166,7 @@ def _single(given: str, stdin_name: str) -> Input:
     return Input(stdin_name, None) if given == STDIN else Input(_slashed(given), given)
 
 
-def _directory(search: Search, inputs: Inputs, taken: Wanted) -> None:
+def _below(search: Search, inputs: Inputs, taken: Wanted) -> list[Input]:
     given = search.given
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
     files = [Input(start + inside, path) for inside, path in search.files(taken)]
@@ -175,7 +175,7 @@ def _directory(search: Search, inputs: Inputs, taken: Wanted) -> None:
     if not (files or search.unreadable):
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
         inputs.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
-    inputs.files += files
+    return files
 
 
 # ------------------------------------------------------------------------------------------------ the one deck
@@ -243,7 +243,7 @@ class GivenDecks(NamedTuple):
         excludes them. With `force_exclude` the configuration also excludes files given by name. `skipped` receives a
         line, with the reason, for each file of a searched directory that is not taken.
         """
-        own, inputs = configured or Configured(), Inputs()
+        own, inputs, files = configured or Configured(), Inputs(), list[Input]()
 
         def taken(path: str) -> bool:
             is_taken = wanted(path) and not own.excludes(path) and may_be_deck(path)
@@ -253,12 +253,11 @@ class GivenDecks(NamedTuple):
 
         for given in self.paths:
             if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-                _directory(Search(given, not self.every_file), inputs, taken)
+                files += _below(Search(given, not self.every_file), inputs, taken)
             elif given == STDIN or not (force_exclude and own.excludes(given)):
-                inputs.files.append(_single(given, self.stdin_name))
-        files = dict.fromkeys(inputs.files)
-        inputs.files = [file._replace(encoding=self.encoding or own.encoding(file.path or file.name)) for file in files]
-        for file in inputs.files:
+                files.append(_single(given, self.stdin_name))
+        for file in dict.fromkeys(files):
+            inputs.files.append(file._replace(encoding=self.encoding or own.encoding(file.path or file.name)))
             if file.path is not None:
                 reading(file.path)
         return inputs
