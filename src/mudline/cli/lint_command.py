@@ -17,7 +17,7 @@ from mudline.checks.configuration import CallerSettings, ConfigurationError, Con
 from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
-from mudline.cli.lint_report import LintReport, complete, outputs
+from mudline.cli.lint_report import LintOptions, LintReport, complete, outputs
 from mudline.cli.lint_run import checked_settings, lint_files
 from mudline.cli.streams import View, notify
 from mudline.language.deck.searching import is_deck
@@ -77,24 +77,19 @@ _rules = partial(
     "--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C."
 )
 @options.gathered("given", CallerSettings)
+@options.gathered("wanted", LintOptions)
 @takes_decks()
 def command(
     *,
     given: CallerSettings,
+    wanted: LintOptions,
     decks: GivenDecks,
-    fail_on: str | None,
     forms: tuple[str, ...],
-    fix: bool,
     unsafe: bool,
-    diff: bool,
-    baseline: str | None,
-    recording: bool,
     config: str | None,
     isolated: bool,
     force_exclude: bool,
-    statistics: bool,
     exit_zero: bool,
-    jobs: int,
     uncached: bool,
     watch: bool,
     view: View,
@@ -104,12 +99,11 @@ def command(
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), or - for standard input. With -v, files of directories that are skipped are named too.
     """
-    fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
+    fixing = "none" if not wanted.fixing else "unsafe" if unsafe else "safe"
     form, files = outputs(forms)
-    if baseline and recording:
-        claim(baseline, "--baseline")
+    if wanted.baseline and wanted.recording:
+        claim(wanted.baseline, "--baseline")
     Configured(config, isolated)  # wrong usage is reported once, before anything is watched
-
     settings = partial(checked_settings, config, given, fixing, isolated=isolated)
 
     def once() -> int:
@@ -118,20 +112,16 @@ def command(
         inputs = decks.collect(configured.includes, configured=configured, skipped=skipped, force_exclude=force_exclude)
         for line in sorted(skipped or ()):
             notify(line)
-        aside = diff or (fix and any(file.path is None for file in inputs.files))
-        report = LintReport(
-            form, files, view, configured, fail_on, statistics=statistics, aside=aside, fixing=fix or diff
-        )
-        memory = None if uncached or fix or diff else of_working_folder("lint", repr(given))
-        failing = lint_files(
-            inputs, cache(settings), report, memory, baseline, recording=recording, diff=diff, jobs=jobs
-        )
+        aside = wanted.diff or (wanted.fix and any(file.path is None for file in inputs.files))
+        report = LintReport(form, files, view, configured, wanted, aside)
+        memory = None if uncached or wanted.fixing else of_working_folder("lint", repr(given))
+        failing = lint_files(inputs, cache(settings), report, memory)
         return max(inputs.code, FOUND if failing and not exit_zero else DONE)
 
     if watch:
         settings()
-        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, form)
-        watched(once, [*decks.paths, *(path for path in (config, baseline) if path)], view)
+        refuse({"--fix": wanted.fix, "--diff": wanted.diff, "--write-baseline": wanted.recording}, decks.paths, form)
+        watched(once, [*decks.paths, *(path for path in (config, wanted.baseline) if path)], view)
     return once()
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import NamedTuple
 
 import click
 
@@ -52,6 +53,23 @@ def outputs(given: Sequence[str]) -> tuple[str, list[tuple[str, Path]]]:
     return (printed[0] if printed else TEXT), files
 
 
+class LintOptions(NamedTuple):
+    """What a run does with its findings; `recording` writes them into the file `baseline`, which else hides them."""
+
+    fix: bool
+    diff: bool
+    baseline: str | None
+    recording: bool
+    fail_on: str | None
+    statistics: bool
+    jobs: int
+
+    @property
+    def fixing(self) -> bool:
+        """Return True if fixes are made, or shown."""
+        return self.fix or self.diff
+
+
 @dataclass(eq=False)
 class LintReport:
     """Findings of a run. With `aside`, findings go to standard error, since standard output carries something else."""
@@ -60,11 +78,8 @@ class LintReport:
     outputs: Sequence[tuple[str, Path]]
     view: View
     configured: Configured
-    fail_on: str | None
-    _: KW_ONLY
-    statistics: bool
+    wanted: LintOptions
     aside: bool
-    fixing: bool
     found: list[Diagnostic] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
     fixed: int = 0
@@ -73,12 +88,12 @@ class LintReport:
 
     def add(self, file: Input, data: bytes, findings: list[Diagnostic], fixed: int) -> None:
         """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
-        name, limit = file.name, Severity(self.fail_on or self.configured.of(file.path or file.name).fail_on)
+        name, limit = file.name, Severity(self.wanted.fail_on or self.configured.of(file.path or file.name).fail_on)
         self.names.append(name)
         self.found += findings
         self.fixed += fixed
         self.failing = self.failing or any(finding.severity.rank >= limit.rank for finding in findings)
-        as_they_come = self.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
+        as_they_come = self.form == TEXT and not (self.view.quiet or self.wanted.statistics or self.aside)
         if as_they_come and findings:
             shown = findings if self.view.verbose else [*_with_style_folded(findings)]
             print_findings(self.view, shown, Source.from_bytes(data, name))
@@ -91,13 +106,13 @@ class LintReport:
         for name, path in self.outputs:
             write_text(path, self._in_form(name, findings))
         printed = "concise" if self.form == TEXT else self.form
-        pieces = statistics_lines(findings) if self.statistics else self._in_form(printed, findings)
+        pieces = statistics_lines(findings) if self.wanted.statistics else self._in_form(printed, findings)
         if self.aside:
             for piece in pieces:
                 click.echo(piece, err=True, nl=False)
-            if self.fixing and not self.view.quiet and printed == "concise":
+            if self.wanted.fixing and not self.view.quiet and printed == "concise":
                 click.echo(self._fixed_summary(findings), err=True)
-        elif self.statistics or self.view.quiet or self.form != TEXT:
+        elif self.wanted.statistics or self.view.quiet or self.form != TEXT:
             emit(pieces)
         elif self.names:
             self._summary(findings)
@@ -110,7 +125,7 @@ class LintReport:
         yield from form(name, self.names, __version__)(findings)
 
     def _summary(self, findings: list[Diagnostic]) -> None:
-        if self.fixing and (self.fixed or findings):
+        if self.wanted.fixing and (self.fixed or findings):
             say(self._fixed_summary(findings))
         elif findings:
             print_summary(self.view, findings, len(self.names))

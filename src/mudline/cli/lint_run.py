@@ -74,22 +74,12 @@ _Read = tuple[Input, bytes, str, FileReport | None]
 """A file and its content, the key under which a new report is remembered, if any, and the remembered report."""
 
 
-def lint_files(
-    inputs: Inputs,
-    settings: Callable[[], Settings],
-    report: LintReport,
-    memory: Memory | None,
-    baseline: str | None,
-    *,
-    recording: bool,
-    diff: bool,
-    jobs: int,
-) -> bool:
+def lint_files(inputs: Inputs, settings: Callable[[], Settings], report: LintReport, memory: Memory | None) -> bool:
     """Lint all files and return True if the run fails.
 
-    Remembered reports are not made again, except for standard input. Fixed decks are written or shown; with `diff` they
-    are only shown. `baseline` is the file of findings to be left out, or to be recorded.
+    Remembered reports are not made again, except for standard input. Fixed decks are written or shown.
     """
+    wanted = report.wanted
 
     def prepared(file: Input) -> tuple[_Read, tuple[str, bytes, LintSettings, Path | None] | None]:
         data = file.read()
@@ -98,9 +88,9 @@ def lint_files(
             return (file, data, "", remembered(held, file.name)), None
         return (file, data, key, None), (file.name, data, settings().of(file.path or file.name), file.folder)
 
-    recorded = _baseline(baseline, recording=recording)
+    recorded = _baseline(wanted.baseline, recording=wanted.recording)
     differs, documents = False, 0
-    jobs = 1 if report.fixing else jobs  # another deck may continue a deck that is being fixed
+    jobs = 1 if wanted.fixing else wanted.jobs  # another deck may continue a deck that is being fixed
     progress = Progress(len(inputs.files), report.view, shown=False)
     with closing(many_files(inputs, prepared, lint_one, progress, jobs=jobs)) as results:
         for (file, data, key, known), linted in results:
@@ -108,14 +98,14 @@ def lint_files(
             if memory is not None and key:
                 remember(memory, key, result)
             content = data
-            if report.fixing:
+            if wanted.fixing:
                 documents += form_of(file.name) != "keyword"
-                differs = differs or (diff and result.changed is not None)
-                content, result = _delivered(inputs, file, data, result, settings(), report.view, diff=diff)
+                differs = differs or (wanted.diff and result.changed is not None)
+                content, result = _delivered(inputs, file, data, result, settings(), report.view, diff=wanted.diff)
             findings = list(result.found)
             if recorded is not None:
                 path = file.path or file.name
-                if recording:
+                if wanted.recording:
                     recorded.record(findings, content, path)
                 findings = recorded.unknown(findings, content, path)
             report.add(file, content, findings, len(result.fixed))
@@ -125,10 +115,10 @@ def lint_files(
     if documents:
         notify(f"{counted(documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
     report.finish()
-    if recorded is not None and baseline is not None:
-        name = Path(baseline).as_posix()
-        if recording:
-            write_text(Path(baseline), [recorded.text()])
+    if recorded is not None and wanted.baseline is not None:
+        name = Path(wanted.baseline).as_posix()
+        if wanted.recording:
+            write_text(Path(wanted.baseline), [recorded.text()])
             report.view.note(f"{name}: {counted(recorded.known.total(), 'finding')} recorded")
         elif report.view.verbose and (gone := recorded.gone()):
             notify(f"{name}: {counted(gone, 'recorded finding')} no longer there: write it again")
