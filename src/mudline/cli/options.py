@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Sequence
 from functools import partial, wraps
-from inspect import signature
 from typing import Any
 
 import click
@@ -60,17 +59,16 @@ Adding = Callable[[Command], Command]
 """Decorator that adds an argument or options to a command."""
 
 
-def gathered(name: str, record: Callable[..., object], *added: Adding) -> Adding:
+def gathered(name: str, record: type, *added: Adding) -> Adding:
     """Return a decorator that adds options, and makes one record of the values that are named as its fields.
 
     The record reaches the command as `name`, if it has this parameter.
     """
-    fields = signature(record).parameters
 
     def decorated(command: Command) -> Command:
         def given(**values: object) -> int:
-            made = record(**{field: values.pop(field) for field in fields if field in values})
-            return command(**values, **({name: made} if name in signature(command).parameters else {}))
+            made = record(**{field: values.pop(field) for field in record.__annotations__ if field in values})
+            return command(**values, **({name: made} if name in command.__annotations__ else {}))
 
         wrapped: Command = wraps(command)(given)
         for add in reversed(added):
