@@ -26,19 +26,17 @@ _PLUGINS = "PYDANTIC_DISABLE_PLUGINS"
 """Variable that disables pydantic's plugins: searching for them reads files of every installed package."""
 
 
-class Ended(KeyboardInterrupt):
-    """End of the program by the system (`kill`, shutdown, closed terminal), after cleaning up."""
-
-    def __init__(self, number: int) -> None:
-        super().__init__(number)
-        self.code = 128 + number
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command line and return its exit code. The version is printed before anything else is imported."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    if given == ["--version"] and _printed(f"mudline {__version__}\n"):
-        return 0
+    if given == ["--version"] and sys.stdout is not None:
+        try:
+            sys.stdout.write(f"mudline {__version__}\n")
+            sys.stdout.flush()
+        except OSError:
+            pass  # `run` tries again, and reports it
+        else:
+            return 0
     gc.set_threshold(*_COLLECTION)
     atexit.register(_leave)
     os.environ.setdefault(_THREADS, "1")
@@ -48,19 +46,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from mudline.cli.main import run
 
         return run(given)
-    except Ended as ended:
-        return ended.code
-    except KeyboardInterrupt:
-        return INTERRUPTED
+    except KeyboardInterrupt as ended:  # by Ctrl-C without a number, by the system with that of its signal
+        return 128 + ended.args[0] if ended.args else INTERRUPTED
 
 
 def _take_signals() -> None:
-    """Raise Ended for SIGTERM and SIGHUP from now on; a signal ignored before, as by nohup, remains ignored."""
+    """Clean up and end for SIGTERM (`kill`, shutdown) and SIGHUP (closed terminal) from now on, as for Ctrl-C.
+
+    A signal ignored before, as by nohup, remains ignored.
+    """
     import signal
     import threading
 
     def end(number: int, _: object) -> None:
-        raise Ended(number)
+        raise KeyboardInterrupt(number)
 
     if threading.current_thread() is threading.main_thread():
         for name in ("SIGTERM", "SIGHUP"):
@@ -76,18 +75,6 @@ def _leave() -> None:
     """
     if "_duckdb" not in sys.modules:
         gc.freeze()
-
-
-def _printed(text: str) -> bool:
-    """Return True if standard output accepts a text; otherwise `run` tries again and reports the error."""
-    if sys.stdout is None:
-        return False
-    try:
-        sys.stdout.write(text)
-        sys.stdout.flush()
-    except OSError:
-        return False
-    return True
 
 
 if __name__ == "__main__":

@@ -161,7 +161,7 @@ def test_gitignore_hides_decks(four: str, folder: Path) -> None:
         (["--positions", "{name.csv"], "--positions {name.csv: not a pattern: expected '}' before end of string"),
         (["--positions", "nowhere.csv"], "nowhere.csv: no such file or directory"),
         (["--time-step", "0"], "--time-step is 0.0: it must be greater than 0"),
-        (["--summary-only"], "--summary-only is for time steps: give series with --positions"),
+        (["--summary-only"], "--summary-only is for time steps: give a series with --positions"),
         (["-o", "decks/a.keyxm"], "decks/a.keyxm: cannot be created: file exists"),
         (["--form", "xlsx"], "Invalid value for '--form': 'xlsx' is not one of 'csv', 'json', 'npz', 'parquet'."),
     ],

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from mudline.basics.outside import project_of
-from mudline.checks.configuration import CallerSettings, Configured
+from mudline.checks.configuration import Configured
 from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import lint_one
 from mudline.checks.output import form_names
@@ -23,7 +23,6 @@ from mudline.checks.registry import rules
 from mudline.checks.report import FileReport
 from mudline.cli import lint_run
 from mudline.cli.inputs import Input
-from mudline.cli.known_findings import known_findings
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity
 from mudline.tools.running import executors, remembered
 from tests.checks.corpus import CORPUS
@@ -185,17 +184,16 @@ def test_a_file_that_is_missing_is_reported_beside_known_ones(place: Place, lint
     assert len(linted) == 1
 
 
-def test_findings_come_back_whole(linted: Linted) -> None:
+def test_findings_come_back_whole(tmp_path: Path, linted: Linted) -> None:
     follows = Diagnostic("a", "REF006", "undefined-node", Severity.WARNING, "m", 2, 1, 2, 2)
     cause = Diagnostic("a", "SYN009", "unknown-keyword", Severity.ERROR, "m", 1, 1, 1, 2, None, True, (follows,))
     found = (*lint_one("a", UNSORTED.encode() + BAD_NUMBER.encode(), LintSettings(rules())).found, cause)
     assert any(one.fix for one in found)
-    known = known_findings(CallerSettings(), Configured(None, True))
-    assert known is not None
-    key = known.key(Input("a", "a"), b"")
+    memory = remembered.Memory(tmp_path / "memory")
+    key = lint_run.key_of(memory, Configured(None, True), Input("a", "a"), b"")
     report = FileReport("a", found, coverage=Coverage(3, 1, {"NODE": 1}, {"A\x1b": 1}))
-    known.put(key, report)
-    assert known.get(key, "a") == report
+    lint_run.remember(memory, key, report)
+    assert lint_run.remembered(memory.get(key), "a") == report
     assert not linted
 
 

@@ -10,7 +10,7 @@ from rich.cells import cell_len
 
 from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.checks.output import form, visible
-from mudline.cli.finding_lines import excerpt
+from mudline.cli.lint_report import excerpt
 from mudline.language.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.language.syntax.source import Source
 from tests.cli.conftest import Place

@@ -19,7 +19,7 @@ from mudline.basics.quantities import shown
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
 from mudline.cli.result_files import beside, result_files, write_tables
-from mudline.cli.streams import UnwrittenError, counted, reason
+from mudline.cli.streams import UnwrittenError, View, counted, reason
 from mudline.cli.view import View
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic
@@ -140,7 +140,6 @@ class Order(NamedTuple):
     inputs: EvaluateInputs
     output: Path
     units: str | None
-    summary_only: bool
 
     def from_anywhere(self) -> Order:
         """Return the order for a worker with another working folder; the files have the same absolute paths there."""
@@ -213,9 +212,7 @@ def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], dict[st
     path = order.output / order.case.result
     path.parent.mkdir(parents=True, exist_ok=True)
     watch = ContactWatch(evaluation)
-    if order.summary_only:
-        if evaluation.time is None:
-            raise click.ClickException(f"--summary-only is for time steps: {order.inputs.positions} is one state")
+    if order.inputs.summary_only:
         series = SeriesSummary(evaluation, *SERIES, "case")
         evaluation.run([series, watch])
         written = [path, *write_tables(series_tables(series, watch.warnings()), path).values()]

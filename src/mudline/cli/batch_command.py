@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Iterator, Sequence
-from contextlib import closing, contextmanager
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 import click
 from click.core import ParameterSource
 from pydantic import TypeAdapter
 
-from mudline.basics.files import remove_left, write_atomically
+from mudline.basics.files import remove_left
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.overwriting import claim, reading
 from mudline.basics.quantities import csv_lines
@@ -33,11 +31,9 @@ from mudline.cli.batch_cases import (
     results_of,
 )
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
-from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, takes_decks
-from mudline.cli.many_files import many_files
+from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.result_files import is_installed, require_library
-from mudline.cli.streams import counted, emit, emit_json, encoded, make_folder, notify, reason
-from mudline.cli.view import Progress, View
+from mudline.cli.streams import Progress, View, counted, emit, emit_json, make_folder, notify, write_text, writing
 from mudline.model.results.cases import CASES, CaseSummary, worst_first, write_parquet
 from mudline.tools.running.executors import check_address
 from mudline.tools.running.remembered import Memory, state
@@ -80,7 +76,6 @@ def command(
     *,
     inputs: EvaluateInputs,
     decks: GivenDecks,
-    summary_only: bool,
     output: str,
     form: str | None,
     output_format: str,
@@ -101,8 +96,6 @@ def command(
         check_address(scheduler)
     if STDIN in decks.paths:
         raise click.UsageError("- is one deck, from standard input: mudline evaluate takes it")
-    if summary_only and inputs.positions is None:
-        raise click.UsageError("--summary-only is for time steps: give series with --positions")
     form = form or ("parquet" if is_installed("parquet") else "npz")
     require_library(form)
     check_positions(inputs.positions)
@@ -118,8 +111,8 @@ def command(
     make_folder(folder)
     for path in (_summary_path(folder), *(path for case in cases for path in results_of(case, folder))):
         claim(path)
-    memory = Memory(folder / _MEMORY, repr((inputs, decks.units, form, summary_only)))
-    order = Order(cases[0], b"", inputs, folder, decks.units, summary_only)
+    memory = Memory(folder / _MEMORY, repr((inputs, decks.units, form)))
+    order = Order(cases[0], b"", inputs, folder, decks.units)
     done, taken = _evaluated(selected, cases, order, memory, view, fresh=no_cache, jobs=jobs, scheduler=scheduler)
     ranked = worst_first(result.row for result in done)
     summary = _write_summary(ranked, folder)
@@ -141,13 +134,8 @@ def command(
 # --------------------------------------------------------------------------------------------------------- evaluating
 
 
-class _Task(NamedTuple):
-    """A deck with the key of its results and the files that it depends on; `known` is a result that needs no work."""
-
-    file: Input
-    key: str = ""
-    files: Sequence[str] = ()
-    known: Done | None = None
+_Task = tuple[Input, str, Sequence[str], Done | None]
+"""A deck, the key of its results, the files that it depends on, and a result that needs no work."""
 
 
 def _evaluated(
@@ -161,7 +149,9 @@ def _evaluated(
     jobs: int,
     scheduler: str | None,
 ) -> tuple[list[Done], int]:
-    """Evaluate the decks and remember new results. Return all results, and how many came from an earlier run.
+    """Evaluate the decks; return all results, and how many came from an earlier run.
+
+    New results are remembered, also if the run is interrupted; half-written files are then removed.
 
     A deck fails if it cannot be read, if it has no positions, or if the program fails.
     """
@@ -172,44 +162,38 @@ def _evaluated(
         try:
             positions = positions_of(case, given.positions)
         except click.ClickException as error:
-            return _Task(file, known=failed(file.name, error.message)), None
+            return (file, "", (), failed(file.name, error.message)), None
         files = [path for path in (positions, given.elements) if path]
         for path in files:
             reading(path)
         key = memory.key(file.name, case.result, data, *files)
         if not fresh and (known := _known(memory, key, file, first.output)):
-            return _Task(file, known=known), None
+            return (file, key, (), known), None
         order = first._replace(case=case, data=data, inputs=replace(given, positions=positions))
         near = [os.path.abspath(path) for path in files]  # noqa: PTH100 - links stay what they are
-        return _Task(file, key, near), (order if scheduler is None else order.from_anywhere(),)
+        return (file, key, near, None), (order if scheduler is None else order.from_anywhere(),)
 
     done: dict[Input, Done] = {}
     taken = 0
     results = many_files(decks, prepared, evaluate_case, Progress(len(cases), view), jobs=jobs, scheduler=scheduler)
-    with _saved(memory, cases, first.output), closing(results):
-        for task, result in results:
-            if result is not None:
-                done[task.file] = result
-                if not result.row.failed:
-                    held = _REMEMBERED.dump_python(result._replace(read=()), mode="json")
-                    memory.put(task.key, held, [*result.read, *task.files])
-            elif task.known is not None:
-                done[task.file] = task.known
-                taken += not task.known.row.failed
-    return [done.get(file) or failed(file.name, decks.undone[file]) for file in decks.files], taken
-
-
-@contextmanager
-def _saved(memory: Memory, cases: Sequence[BatchCase], folder: Path) -> Iterator[None]:
-    """Save the results when the block ends, also when the run is interrupted; half-written files are then removed."""
     try:
-        yield
+        with closing(results):
+            for (file, key, near, known), result in results:
+                if result is not None:
+                    done[file] = result
+                    if not result.row.failed:
+                        held = _REMEMBERED.dump_python(result._replace(read=()), mode="json")
+                        memory.put(key, held, [*result.read, *near])
+                elif known is not None:
+                    done[file] = known
+                    taken += not known.row.failed
     except BaseException:
-        for place in {(folder / case.result).parent for case in cases}:
-            remove_left(str(place))  # of processes that were ended
+        for place in {(first.output / case.result).parent for case in cases}:
+            remove_left(str(place))  # half-written files of processes that were ended
         raise
     finally:
         memory.save()
+    return [done.get(file) or failed(file.name, decks.undone[file]) for file in decks.files], taken
 
 
 # -------------------------------------------------------------------------------------------------------- remembering
@@ -230,16 +214,12 @@ def _known(memory: Memory, key: str, file: Input, output: Path) -> Done | None:
 
 def _write_summary(rows: Sequence[CaseSummary], folder: Path) -> str:
     """Write the rows of all decks, in Parquet if installed, else as CSV. Return the path."""
-    stream = io.BytesIO()
     path = _summary_path(folder)
     if path.suffix == ".parquet":
-        write_parquet(rows, stream)
+        with writing(path) as stream:
+            write_parquet(rows, stream)
     else:
-        stream.writelines(map(encoded, _csv(rows)))
-    try:
-        write_atomically(path, stream.getvalue())
-    except OSError as error:
-        raise click.ClickException(f"{path.as_posix()}: cannot be written: {reason(error)}") from error
+        write_text(path, _csv(rows))
     return path.as_posix()
 
 

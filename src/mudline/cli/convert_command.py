@@ -10,8 +10,7 @@ import numpy as np
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, require_text, takes_deck
-from mudline.cli.streams import emit, notify, require, write_text
-from mudline.cli.view import View
+from mudline.cli.streams import View, emit, notify, require, write_text
 from mudline.language.codes.lines import SYN001
 from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.keyword_text import with_raw_lines
@@ -22,21 +21,15 @@ from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.model import FEWEST_POINTS, Block
 
 _FORMS = click.Choice(form_names())
-_TABLES = {".xlsx": "xlsx", ".xlsm": "xlsx", ".csv": "csv"}
-_BEDS = {".tif": "geotiff", ".tiff": "geotiff", ".asc": "esri-asc"}
-_GRIDS = (*dict.fromkeys(_BEDS.values()), "moordyn-grid")
-_SOURCES = click.Choice([*form_names(), *dict.fromkeys(_TABLES.values()), *_GRIDS])
+_TABLES = ("xlsx", "csv")
+_GRIDS = ("geotiff", "esri-asc", "moordyn-grid")
+_KINDS = {".xlsx": "xlsx", ".xlsm": "xlsx", ".csv": "csv", ".tif": "geotiff", ".tiff": "geotiff", ".asc": "esri-asc"}
+_SOURCES = click.Choice([*form_names(), *_TABLES, *_GRIDS])
 _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 
 
 @options.command("convert")
-@options.option(
-    "-o",
-    "--output",
-    type=options.OUTPUT_FILE,
-    metavar="OUT",
-    help="Write to this file; without it, or with -, to standard output.",
-)
+@options.output(help="Write to this file; without it, or with -, to standard output.")
 @options.option("--from", "source", type=_SOURCES, help="Read DECK in this format, not in that of its suffix.")
 @options.option("--to", "target", type=_FORMS, help="Write in this format, not in that of the suffix of OUT.")
 @options.flag("--sorted", "in_order", help="Write curves with their points sorted by ratio.")
@@ -66,16 +59,18 @@ def command(
     one with a value that its keyword does not allow, as a curve of one point or a negative depth, to JSON or YAML:
     --keep-faults carries such blocks as they are.
     """
-    grid = source if source in _GRIDS else _BEDS.get(PurePath(deck.path).suffix.lower(), "") if source is None else ""
-    if grid:
-        return _bed(deck, grid, output, within, _origin(origin, datum), view)
+    suffix = PurePath(deck.path).suffix.lower()
+    kind = source or _KINDS.get(suffix, "")
+    if kind in _GRIDS:
+        return _bed(deck, kind, output, within, _origin(origin, datum), view)
     if (within, origin, datum) != (None, None, None):
         raise click.UsageError("--within, --origin and --datum are for a seabed: give a .tif or .asc, or --from")
     if keep_faults and anonymous:
         raise click.UsageError("--keep-faults carries lines unread, with their names: leave it or --anonymous out")
     form = target or _form_of_output(output)
-    table = _table_form(deck, source)
-    given = _tables(deck, table) if table else deck.load(source)
+    if source is None and suffix in _OTHER_SHEETS:
+        raise click.UsageError(f"{deck.path}: {suffix} cannot be read: save it as .xlsx in the spreadsheet program")
+    given = _tables(deck, kind) if kind in _TABLES else deck.load(source)
     read = _with_faults(given, view) if keep_faults else given.require()
     if form != "keyword":
         _require_values(read)
@@ -163,14 +158,6 @@ def _bed(
     return DONE
 
 
-def _table_form(deck: GivenDeck, source: str | None) -> str:
-    """The form of the tables to be read, "" for a deck; raises click.UsageError for sheets of another form."""
-    suffix = PurePath(deck.path).suffix.lower()
-    if source is None and suffix in _OTHER_SHEETS:
-        raise click.UsageError(f"{deck.path}: {suffix} cannot be read: save it as .xlsx in the spreadsheet program")
-    return _TABLES.get(suffix, "") if source is None else source if source in _TABLES.values() else ""
-
-
 def _tables(deck: GivenDeck, form: str) -> Deck:
     """The deck of tables; ends the command without the library that they need. Raises DeckError."""
     if form == "xlsx":
@@ -178,8 +165,9 @@ def _tables(deck: GivenDeck, form: str) -> Deck:
     from mudline.model.scene.keyword_tables import read_tables  # noqa: PLC0415 - only tables need it
     from mudline.model.scene.workbook import csv_sheet, workbook_sheets  # noqa: PLC0415 - as above
 
-    data, name = deck.content()
-    found = read_tables(workbook_sheets(data, name) if form == "xlsx" else [csv_sheet(data, name)], name, deck.units)
+    data, file = deck.content()
+    sheets = workbook_sheets(data, file.name) if form == "xlsx" else [csv_sheet(data, file.name)]
+    found = read_tables(sheets, file.name, deck.units)
     for sheet in found.left_out:
         notify(f"sheet {sheet} is left out: no headings of a keyword in its first row")
     return found.deck

@@ -10,7 +10,6 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from itertools import accumulate, groupby
-from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
@@ -22,16 +21,12 @@ from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
-from mudline.cli.inputs import STDIN, GivenDeck, refuses_bad_decks
-from mudline.cli.streams import emit, notify, notify_diagnostics
-from mudline.cli.view import View
+from mudline.cli.inputs import STDIN, GivenDeck
+from mudline.cli.streams import Part, View, emit, notify, notify_diagnostics
 from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckStatus
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
 from mudline.language.deck.loading import load_bytes
-
-if TYPE_CHECKING:  # rich is imported where there is a terminal or colour
-    from mudline.cli.printing import Part
 
 FORMAT = "mudline-diff/1"
 FOLDER_FORMAT = "mudline-diff-folders/1"
@@ -67,7 +62,6 @@ _OF_DECKS = {
 @options.stdin_name
 @options.units
 @options.common
-@refuses_bad_decks
 def command(
     *,
     before: str,
@@ -108,14 +102,12 @@ def command(
         raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
     if all(folders):
         try:
-            words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": not every_file}
-            decks_of_both = diff(before, after, tolerance=tolerance, **words).decks
+            both = diff(before, after, tolerance=tolerance, strict=strict, units=units, gitignore=not every_file)
         except FileNotFoundError:
             raise click.ClickException(f"{before}, {after}: no deck in these folders") from None
-        return _print_folders((before, after), tolerance, decks_of_both, output_format, view)
+        return _print_folders((before, after), tolerance, both.decks, output_format, view)
     first, second = _pair(before, after, stdin_name, units)
     comparison = diff(first, second, tolerance=tolerance, strict=strict)
-    summary = summary_of(comparison)
     if output_format == "json":
         head = {
             "format": FORMAT,
@@ -126,13 +118,10 @@ def command(
             "spelling_differences": len(comparison.spelling),
         }
         emit([*_json_lines(head, "differences", map(asdict, comparison.differences)), "\n}\n"])
-    elif output_format == "markdown":
-        lines = difference_lines("", "", comparison, view)
-        emit(markdown(first.file, second.file, summary, lines, view))
     else:
-        names = ("", "") if view.quiet else (first.file, second.file)
-        shown = [*difference_lines(*names, comparison, view), *([] if view.quiet else [summary])]
-        view.lines([line] for line in shown)
+        names = ("", "") if view.quiet or output_format == "markdown" else (first.file, second.file)
+        lines = difference_lines(*names, comparison, view)
+        _print_lines((first.file, second.file), lines, summary_of(comparison), output_format, view)
     return FOUND if comparison.differences else DONE
 
 
@@ -185,13 +174,13 @@ def _print_folders(
         if deck.unread is not None:
             notify(deck.why)
     counts = Counter(deck.status for deck in decks)
-    *lines, summary = folder_lines(decks, counts, view)
     if output_format == "json":
         emit(_folders_json(folders, tolerance, decks, counts))
-    elif output_format == "markdown":
-        emit(markdown(*folders, str(summary), lines, view))
     else:
-        view.lines([line] for line in ([*lines, summary] if not view.quiet else lines))
+        names = {**{status: status.value for status in DeckStatus}, DeckStatus.FAILED: _NOT_COMPARED}
+        parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
+        summary = f"{counted(len(decks), 'deck')}: {', '.join(parts)}"
+        _print_lines(folders, folder_lines(decks, view), summary, output_format, view)
     if any(deck.unread for deck in decks):
         return WRONG_USAGE
     return DONE if counts[DeckStatus.EQUAL] == len(decks) else FOUND
@@ -233,13 +222,20 @@ def _folders_json(
 # ------------------------------------------------------------------------------------------------------ for people
 
 
+def _print_lines(names: tuple[str, str], lines: Iterable[Part], summary: str, output_format: str, view: View) -> None:
+    """Print differences and their summary, as lines or in Markdown."""
+    if output_format == "markdown":
+        emit(markdown(*names, summary, lines, view))
+    else:
+        view.lines([line] for line in (lines if view.quiet else [*lines, summary]))
+
+
 def difference_lines(before: str, after: str, comparison: Comparison, view: View) -> Iterator[Part]:
     """Yield the differences of two decks by group, below the names of the decks unless these are empty."""
-    all_differences = comparison.differences
-    if all_differences and before:
+    if comparison.differences and before:
         yield visible(f"--- {before}"), "bold"
         yield visible(f"+++ {after}"), "bold"
-    for group, members in groupby(all_differences, key=lambda difference: difference.group):
+    for group, members in groupby(comparison.differences, key=lambda difference: difference.group):
         differences = list(members)
         yield visible(group), "cyan"
         if not view.verbose:
@@ -255,8 +251,8 @@ def difference_lines(before: str, after: str, comparison: Comparison, view: View
             yield f"  and {len(differences) - most} more (-v shows all)"
 
 
-def folder_lines(decks: Iterable[ComparedDeck], counts: Mapping[DeckStatus, int], view: View) -> Iterator[Part]:
-    """Yield the differences of the decks of two folders, then the counts of decks."""
+def folder_lines(decks: Iterable[ComparedDeck], view: View) -> Iterator[Part]:
+    """Yield the differences of the decks of two folders."""
     for deck in decks:
         if deck.status is DeckStatus.CHANGED:
             yield from difference_lines(deck.before, deck.after, deck.comparison, view)
@@ -266,9 +262,6 @@ def folder_lines(decks: Iterable[ComparedDeck], counts: Mapping[DeckStatus, int]
         else:
             mark, style, words = _OF_DECKS[deck.status]
             yield visible(f"{mark} {deck.name}: {words}"), style
-    names = {**{status: status.value for status in DeckStatus}, DeckStatus.FAILED: _NOT_COMPARED}
-    parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
-    yield f"{counted(sum(counts.values()), 'deck')}: {', '.join(parts)}"
 
 
 def summary_of(comparison: Comparison) -> str:

@@ -25,6 +25,11 @@ from mudline.cli.result_files import beside, require_library, result_files, writ
 from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
 from mudline.model.results.against import ResultComparison
+from mudline.cli.inputs import GivenDeck
+from mudline.cli.plots import Plot, numbers_of_elements, plot_option
+from mudline.cli.result_files import beside, require_library, result_files, write_tables
+from mudline.cli.streams import Progress, View, counted, emit, emit_json, notify, notify_diagnostics
+from mudline.model.results.against import ResultComparison, read_reference
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
 from mudline.model.results.forms import FORMS, Sink, plan_rows
 from mudline.model.results.forms.text import text_writer, write_text
@@ -46,10 +51,8 @@ class Wanted(NamedTuple):
 @options.command("evaluate")
 @takes_inputs("Read the positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
 @click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
-@options.output_option(
-    "-o",
-    "--output",
-    type=options.OUTPUT_FILE,
+@options.output(
+    group=options.OUTPUT,
     metavar=f"OUT.{'|'.join(FORMS)}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
@@ -76,7 +79,6 @@ class Wanted(NamedTuple):
 @options.stdin_name
 @options.units
 @options.common
-@refuses_bad_decks
 def command(
     *,
     inputs: EvaluateInputs,
@@ -89,7 +91,6 @@ def command(
     plot_elements: tuple[int, ...],
     plan_only: bool,
     table: str,
-    summary_only: bool,
     fail_on: str,
     output_format: str,
     view: View,
@@ -109,6 +110,11 @@ def command(
         if inputs.positions is None:
             raise click.UsageError("--summary-only is for time steps: give a series with --positions")
     if plot_elements and plot is None:
+    if inputs.summary_only:
+        for option, given in {"--against": against, "--plot": plot.path, "--plan": plan_only}.items():
+            if given:
+                raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
+    if plot_elements and plot.path is None:
         raise click.UsageError("--plot-elements is for a plot: give --plot")
     form = options.form_of_file(output, FORMS) if output else ""
     if form:
@@ -120,9 +126,7 @@ def command(
     source = click.get_current_context().get_parameter_source("table")
     every = table == "elements" and source is not ParameterSource.DEFAULT
     evaluation, wanted = inputs.evaluation(deck), Wanted(output, output_format, table, view, every)
-    if summary_only:
-        if evaluation.time is None:
-            raise click.UsageError(f"--summary-only is for time steps: {inputs.positions} is one state")
+    if inputs.summary_only:
         warnings = _evaluate_series(evaluation, wanted)
     else:
         warnings = _evaluate_one(evaluation, wanted, plot, plot_elements, against)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
-from functools import wraps
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import click
 
@@ -15,8 +14,8 @@ from mudline.api import Scene as PublicScene
 from mudline.api import read_positions
 from mudline.basics.overwriting import reading
 from mudline.checks.engine import naming_causes
-from mudline.cli.options import ABOVE_ZERO, Command, input_option, option
-from mudline.cli.streams import reason
+from mudline.cli.options import ABOVE_ZERO, Adding, gathered, input_option, option
+from mudline.cli.streams import naming
 from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
@@ -24,7 +23,7 @@ from mudline.model.scene.csv_file import read_external
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.positions import COLUMNS
 
-_MAPPING = re.compile(r"""\s*(\w+)\s*=\s*("[^"]*"|.*?)\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
+_MAPPING = re.compile(r"""\s*(\w+)\s*=\s*(?:"([^"]*)"|(.*?))\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
 """NAME=HEADING up to a comma that is followed by another name: a heading may contain commas."""
 
 _Read = TypeVar("_Read")
@@ -40,6 +39,15 @@ class EvaluateInputs:
     time_step: float | None = None
     headings: Mapping[str, str] = field(default_factory=dict)
     rest_shape: bool = False
+    summary_only: bool = False
+
+    def __post_init__(self) -> None:
+        if self.headings and self.positions is None:
+            raise click.UsageError("--columns is for positions from a CSV: give --positions too")
+        if self.rest_shape and self.positions is not None:
+            raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
+        if self.summary_only and self.positions is None:
+            raise click.UsageError("--summary-only is for time steps: give a series with --positions")
 
     def scene(self, deck: Deck) -> Scene:
         """Return the scene of a deck; raises DeckError with the causes that prevent evaluation."""
@@ -55,7 +63,10 @@ class EvaluateInputs:
 
             rest = rest_shape(scene)
             return evaluate_scene(scene, rest.positions, self.tension, at_rest=rest.sentences(scene.units))
-        return evaluate_scene(scene, self._placed(scene), self.tension)
+        evaluation = evaluate_scene(scene, self._placed(scene), self.tension)
+        if self.summary_only and evaluation.time is None:
+            raise click.UsageError(f"--summary-only is for time steps: {self.positions} is one state")
+        return evaluation
 
     def prepared(self, deck: Deck) -> Prepared:
         """Return the evaluator of a deck, for its plan. Raises DeckError, click.ClickException."""
@@ -78,24 +89,10 @@ class EvaluateInputs:
         return replace(positions, time=positions.time * self.time_step, timed=True)
 
 
-def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
+def takes_inputs(positions_help: str) -> Adding:
     """Add the options about the inputs; they reach the command as `inputs`, an EvaluateInputs."""
-
-    def added(command: Command) -> Command:
-        @wraps(command)
-        def given(**options: Any) -> int:  # noqa: ANN401 - of click
-            inputs = EvaluateInputs(**{each.name: options.pop(each.name) for each in fields(EvaluateInputs)})
-            if inputs.headings and inputs.positions is None:
-                raise click.UsageError("--columns is for positions from a CSV: give --positions too")
-            if inputs.rest_shape and inputs.positions is not None:
-                raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
-            return command(inputs=inputs, **options)
-
-        for add in reversed(_INPUTS):
-            given = add(given)
-        return input_option("--positions", metavar="FILE", help=positions_help)(given)
-
-    return added
+    positions = input_option("--positions", metavar="FILE", help=positions_help)
+    return gathered("inputs", EvaluateInputs, positions, *_INPUTS)
 
 
 _INPUTS = (
@@ -148,10 +145,8 @@ fail_on = click.option(
 def read_file(path: str, read: Callable[[Path], _Read]) -> _Read:
     """Return the content of a file as read by `read`; ends the command if the file cannot be read."""
     reading(path)
-    try:
+    with naming(path):
         return read(Path(path))
-    except OSError as error:
-        raise click.ClickException(f"{path}: {reason(error)}") from error
 
 
 def read_headings(given: Sequence[str]) -> dict[str, str]:
@@ -161,7 +156,7 @@ def read_headings(given: Sequence[str]) -> dict[str, str]:
         place = 0
         while place < len(text) or not text:
             match = _MAPPING.match(text, place)
-            if match is None or not (heading := _unquoted(match[2])):
+            if match is None or not (heading := match[2] or match[3]):
                 raise click.UsageError(f'--columns {text!r}: expected NAME=HEADING, as in node=Node,x="X [m]"')
             name, place = match[1].lower(), match.end()
             if name not in COLUMNS:
@@ -171,8 +166,3 @@ def read_headings(given: Sequence[str]) -> dict[str, str]:
                 raise click.UsageError(f"--columns gives {name} twice")
             headings[name] = heading
     return headings
-
-
-def _unquoted(text: str) -> str:
-    quoted = len(text) > 1 and text.startswith('"') and text.endswith('"')
-    return text[1:-1] if quoted else text

@@ -15,7 +15,7 @@ from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, te
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import LINES, STEPS, UnitNames, shown, time_unit, unit_names
 from mudline.basics.short_repr import counted
-from mudline.cli.view import View
+from mudline.cli.streams import View
 from mudline.model.contact import ContactResult, Plan
 from mudline.model.contact.columns import ResultColumn
 from mudline.model.contact.lines import LineSummary

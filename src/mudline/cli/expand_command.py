@@ -11,8 +11,7 @@ from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import emit, make_folder, notify, write_bytes, write_text
-from mudline.cli.view import View
+from mudline.cli.streams import View, emit, make_folder, notify, write_bytes, write_text
 from mudline.editing.variations.files import MANIFEST, ExpansionPlan, conflicts, lacking, manifest_text
 from mudline.editing.variations.planning import plan
 

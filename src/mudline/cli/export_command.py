@@ -12,8 +12,7 @@ from mudline.api.commands import export
 from mudline.basics.display import DisplayColumn, DisplayTable
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
-from mudline.cli.streams import emit_json, notify, write_text
-from mudline.cli.view import View
+from mudline.cli.streams import View, emit_json, notify, write_text
 from mudline.tools.exporting.report import ExportReport
 
 _TARGETS = ("moordyn", "orcaflex")
@@ -21,14 +20,7 @@ _TARGETS = ("moordyn", "orcaflex")
 
 @options.command("export")
 @options.option("--to", "target", type=click.Choice(_TARGETS), required=True, help="Write the input of this program.")
-@options.option(
-    "-o",
-    "--output",
-    required=True,
-    type=options.OUTPUT_FILE,
-    metavar="OUT",
-    help="Write to this file, and further files next to it.",
-)
+@options.output(required=True, help="Write to this file, and further files next to it.")
 @options.flag(
     "--rest-shape", help="Export the resting shape, not the deck's own coordinates; it is also written to OUT-rest.csv."
 )

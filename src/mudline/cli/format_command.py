@@ -10,10 +10,8 @@ from mudline.api.commands import formatted_file
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import deliver
-from mudline.cli.inputs import GivenDecks, takes_decks
-from mudline.cli.many_files import each_deck
-from mudline.cli.streams import notify
-from mudline.cli.view import Progress, View
+from mudline.cli.inputs import GivenDecks, each_deck, takes_decks
+from mudline.cli.streams import Progress, View, notify
 from mudline.editing.formatting.document import FormatError
 
 _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"

@@ -17,11 +17,9 @@ from mudline.checks.engine import LintSettings
 from mudline.checks.registry import plugin_files
 from mudline.checks.settings import Settings
 from mudline.cli import DONE, options
-from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
+from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
-from mudline.cli.many_files import many_files
-from mudline.cli.streams import counted, notify, reason, require
-from mudline.cli.view import Progress, View
+from mudline.cli.streams import Progress, View, counted, notify, reason, require
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.archive.rows import Rows, rows_of
 

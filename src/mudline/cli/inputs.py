@@ -1,4 +1,8 @@
-"""Decks that a command reads: given files, files of directories that no .gitignore hides, standard input."""
+"""Decks that a command reads: given files, files of directories that no .gitignore hides, standard input.
+
+Many decks are read and processed in the order given, with a progress bar. Files that cannot be read, or for which the
+program fails, are reported, and the others are still processed. So are decks that a command refuses to rewrite.
+"""
 
 from __future__ import annotations
 
@@ -6,29 +10,33 @@ import errno
 import os
 import sys
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Iterator
+from contextlib import closing
 from dataclasses import dataclass, field
-from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
 
 import click
 
 from mudline.basics.files import alone_at, write_atomically
 from mudline.basics.overwriting import outputs, reading
 from mudline.checks.configuration import Configured
-from mudline.cli import FOUND, WRONG_USAGE, options
-from mudline.cli.streams import notify, notify_diagnostics, reason
+from mudline.cli import WRONG_USAGE, options
+from mudline.cli.streams import Progress, naming, notify, notify_diagnostics, reason
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be_deck
 from mudline.language.diagnostics import DeckError
+from mudline.tools.running.executors import Crash, many
 
 if TYPE_CHECKING:
     from mudline.api import Deck
     from mudline.language.deck import model
 
 _Deck = TypeVar("_Deck", bound="model.Deck")
+_Item = TypeVar("_Item")
+_Given = TypeVarTuple("_Given")
+_Made = TypeVar("_Made")
 
 STDIN = "-"
 
@@ -67,25 +75,23 @@ class Input(NamedTuple):
         if self.path is not None:
             reading(self.path)
             with open(self.path, "rb", buffering=0) as stream:  # noqa: PTH123 - as above
-                return self._in_utf8(stream.readall())
+                return self._recoded(stream.readall(), self.encoding, "utf-8")
         if sys.stdin is None:
             raise OSError(errno.EBADF, "standard input is closed")
         reading(None)
-        return self._in_utf8(sys.stdin.buffer.read())
-
-    def _in_utf8(self, data: bytes) -> bytes:
-        return self._recoded(data, self.encoding, "utf-8", f"it is not in {self.encoding}")
+        return self._recoded(sys.stdin.buffer.read(), self.encoding, "utf-8")
 
     def own_bytes(self, content: bytes) -> bytes:
         """Return a content in the encoding of the file; raises OSError for a letter that the encoding lacks."""
-        return self._recoded(content, "utf-8", self.encoding, f"{self.encoding} lacks a letter of it")
+        return self._recoded(content, "utf-8", self.encoding)
 
-    def _recoded(self, data: bytes, before: str, after: str, fault: str) -> bytes:
+    def _recoded(self, data: bytes, before: str, after: str) -> bytes:
         if not self.encoding or form_of(self.name) != "keyword":
             return data
         try:
             return data.decode(before).encode(after)
         except UnicodeError as error:
+            fault = f"it is not in {before}" if after == "utf-8" else f"{after} lacks a letter of it"
             raise OSError(errno.EILSEQ, f"{fault}: {error}") from error
 
 
@@ -160,7 +166,7 @@ def _single(given: str, stdin_name: str) -> Input:
     return Input(stdin_name, None) if given == STDIN else Input(_slashed(given), given)
 
 
-def _directory(search: Search, inputs: Inputs, taken: Wanted) -> None:
+def _below(search: Search, inputs: Inputs, taken: Wanted) -> list[Input]:
     given = search.given
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
     files = [Input(start + inside, path) for inside, path in search.files(taken)]
@@ -169,7 +175,7 @@ def _directory(search: Search, inputs: Inputs, taken: Wanted) -> None:
     if not (files or search.unreadable):
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
         inputs.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
-    inputs.files += files
+    return files
 
 
 # ------------------------------------------------------------------------------------------------ the one deck
@@ -183,25 +189,22 @@ class GivenDeck(NamedTuple):
     units: str | None
     encoding: str = ""
 
-    def content(self) -> tuple[bytes, str]:
-        """Return the content of the file and its name in messages; ends the command if the path cannot be read."""
+    def content(self) -> tuple[bytes, Input]:
+        """Return the content of the file, and the file; ends the command if the path cannot be read."""
         if os.path.isdir(self.path):  # noqa: PTH112 - as above
             raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
         file = _single(self.path, self.stdin_name)
         file = file._replace(encoding=self.encoding or Configured().encoding(file.path or file.name))
-        try:
-            return file.read(), file.name
-        except OSError as error:
-            raise click.ClickException(f"{self.path}: {reason(error)}") from error
+        with naming(self.path):
+            return file.read(), file
 
     def load(self, form: str | None = None) -> Deck:
         """Return the deck; ends the command if the path cannot be read. Raises DeckError."""
-        data, name = self.content()
+        data, file = self.content()
         from mudline.api import Deck  # noqa: PLC0415 - what only looks for files reads no deck
         from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - as above
 
-        folder = _single(self.path, self.stdin_name).folder
-        deck = load_bytes(data, name, form=form, units=self.units, folder=folder)
+        deck = load_bytes(data, file.name, form=form, units=self.units, folder=file.folder)
         reading_named_files(deck)
         return Deck(**vars(deck))
 
@@ -240,7 +243,7 @@ class GivenDecks(NamedTuple):
         excludes them. With `force_exclude` the configuration also excludes files given by name. `skipped` receives a
         line, with the reason, for each file of a searched directory that is not taken.
         """
-        own, inputs = configured or Configured(), Inputs()
+        own, inputs, files = configured or Configured(), Inputs(), list[Input]()
 
         def taken(path: str) -> bool:
             is_taken = wanted(path) and not own.excludes(path) and may_be_deck(path)
@@ -250,67 +253,114 @@ class GivenDecks(NamedTuple):
 
         for given in self.paths:
             if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-                _directory(Search(given, not self.every_file), inputs, taken)
+                files += _below(Search(given, not self.every_file), inputs, taken)
             elif given == STDIN or not (force_exclude and own.excludes(given)):
-                inputs.files.append(_single(given, self.stdin_name))
-        files = dict.fromkeys(inputs.files)
-        inputs.files = [file._replace(encoding=self.encoding or own.encoding(file.path or file.name)) for file in files]
-        for file in inputs.files:
+                files.append(_single(given, self.stdin_name))
+        for file in dict.fromkeys(files):
+            inputs.files.append(file._replace(encoding=self.encoding or own.encoding(file.path or file.name)))
             if file.path is not None:
                 reading(file.path)
         return inputs
 
 
-def takes_decks(
-    metavar: str = "PATHS...", *, stdin: bool = True, units: bool = True
-) -> Callable[[options.Command], options.Command]:
+def takes_decks(metavar: str = "PATHS...", *, stdin: bool = True, units: bool = True) -> options.Adding:
     """Add the decks, the options about them and the common options; they reach the command as `decks`, a GivenDecks."""
-
-    def added(command: options.Command) -> options.Command:
-        @wraps(command)
-        def given(
-            *,
-            paths: tuple[str, ...],
-            every_file: bool,
-            stdin_name: str = "",
-            units: str | None = None,
-            encoding: str = "",
-            **others: object,
-        ) -> int:
-            return command(decks=GivenDecks(paths, every_file, stdin_name, units, encoding), **others)
-
-        decorated = options.common(given)
-        for option, included in (
-            (options.encoding, True),
-            (options.units, units),
-            (options.stdin_name, stdin),
-            (options.every_file, True),
-        ):
-            decorated = option(decorated) if included else decorated
-        return options.decks(metavar)(decorated)
-
-    return added
+    return options.gathered(
+        "decks",
+        GivenDecks,
+        click.argument("paths", nargs=-1, required=True, metavar=metavar, shell_complete=options.complete_files),
+        options.every_file,
+        *[options.stdin_name] * stdin,
+        *[options.units] * units,
+        options.encoding,
+        options.common,
+    )
 
 
-def takes_deck(command: options.Command) -> options.Command:
-    """Add DECK, the options about it and the common options; the deck reaches the command as `deck`, a GivenDeck."""
+takes_deck = options.gathered(
+    "deck",
+    GivenDeck,
+    click.argument("path", metavar="DECK", shell_complete=options.complete_files),
+    options.stdin_name,
+    options.units,
+    options.encoding,
+    options.common,
+)
+"""Decorator that adds DECK, the options about it and the common options; the deck reaches the command as `deck`."""
 
-    @wraps(command)
-    def given(*, deck: str, stdin_name: str, units: str | None, encoding: str, **others: object) -> int:
-        return command(deck=GivenDeck(deck, stdin_name, units, encoding), **others)
 
-    return options.deck(options.stdin_name(options.units(options.encoding(options.common(refuses_bad_decks(given))))))
+# --------------------------------------------------------------------------------------------- each of many files
 
 
-def refuses_bad_decks(command: options.Command) -> options.Command:
-    """Turn the DeckError of a command into messages and exit code 1."""
+def many_files(
+    inputs: Inputs,
+    prepared: Callable[[Input], tuple[_Item, tuple[*_Given] | None]],
+    work: Callable[[*_Given], _Made],
+    progress: Progress,
+    *,
+    jobs: int,
+    scheduler: str | None = None,
+) -> Generator[tuple[_Item, _Made | None], None, None]:
+    """Yield an item for each file with the result of `work`, run here, in other processes or by a scheduler's workers.
 
-    @wraps(command)
-    def guarded(**given: object) -> int:
+    `prepared` returns the item of a file and the arguments of `work`, or None if there is no work. It is called when
+    the file is due, and raises OSError if the file cannot be read. Files that cannot be read, or for which the program
+    itself fails, are reported and left out; `inputs` records them and the exit code. Close the generator to end the
+    processes as soon as the command ends. Raises RunError.
+    """
+
+    def items() -> Iterator[tuple[tuple[Input, _Item], tuple[*_Given] | None]]:
+        for file in inputs.files:
+            try:
+                item, given = prepared(file)
+            except OSError as error:
+                progress.hide()
+                inputs.unreadable(file, error)
+                progress.advance()
+            else:
+                yield (file, item), given
+
+    with progress, closing(many(work, items(), len(inputs.files), jobs, scheduler)) as results:
+        for (file, item), result in results:
+            if isinstance(result, Crash):
+                progress.hide()
+                inputs.undone[file] = f"internal error: {result.summary}"
+                inputs.fail(f"{file.name}: internal error, please report it: {result.summary}")
+                if progress.view.verbose:
+                    notify(result.traceback)
+            else:
+                yield item, result
+            progress.advance()
+
+
+def each_deck(
+    inputs: Inputs, work: Callable[[Input, bytes], _Made], progress: Progress, *refusals: type[Exception]
+) -> Iterator[tuple[Input, bytes, _Made | None]]:
+    """Yield each deck with its content and the result of `work`, made here, one after the other.
+
+    The result is None for a deck that `work` refuses by a DeckError, or by another of `refusals`; it is reported.
+    """
+
+    def prepared(file: Input) -> tuple[tuple[Input, bytes], tuple[Input, bytes]]:
+        given = file, file.read()
+        return given, given
+
+    refusing: tuple[type[Exception], ...] = (DeckError, *refusals)
+
+    def tried(file: Input, data: bytes) -> _Made | Exception:
         try:
-            return command(**given)
-        except DeckError as error:
-            notify_diagnostics(error.diagnostics)
-            return FOUND
+            return work(file, data)
+        except refusing as error:
+            return error
 
-    return guarded
+    with closing(many_files(inputs, prepared, tried, progress, jobs=1)) as results:
+        for (file, data), made in results:
+            if not isinstance(made, Exception):
+                yield file, data, made
+                continue
+            progress.hide()
+            if not isinstance(made, DeckError):
+                line = getattr(made, "line", None)
+                notify(f"{file.name}{f':{line}' if line else ''}: {made}")
+            notify_diagnostics(getattr(made, "diagnostics", ()))
+            yield file, data, None

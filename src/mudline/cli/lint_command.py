@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 import click
 
@@ -17,26 +17,23 @@ from mudline.checks.configuration import CallerSettings, ConfigurationError, Con
 from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
-from mudline.cli.known_findings import known_findings
-from mudline.cli.lint_report import LintReport, complete, outputs
+from mudline.cli.lint_report import LintOptions, LintReport, complete, outputs
 from mudline.cli.lint_run import checked_settings, lint_files
-from mudline.cli.streams import notify
-from mudline.cli.view import View
+from mudline.cli.streams import View, notify
 from mudline.language.deck.searching import is_deck
 from mudline.language.diagnostics import Severity
-
-if TYPE_CHECKING:
-    from mudline.checks.settings import Settings
+from mudline.tools.running.remembered import of_working_folder
 
 _RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"
 
 _rules = partial(
-    options.option, group=_RULES, multiple=True, metavar="CODE[,CODE...]", shell_complete=options.complete_rules
+    options.option,
+    group=_RULES,
+    multiple=True,
+    metavar="CODE[,CODE...]",
+    callback=lambda _context, _option, given: tuple(word for text in given for word in text.split(",") if word.strip()),
+    shell_complete=options.complete_rules,
 )
-
-
-def _words(given: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(word for text in given for word in text.split(",") if word.strip())
 
 
 @options.command("lint")
@@ -79,28 +76,20 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @options.run_option(
     "--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C."
 )
+@options.gathered("given", CallerSettings)
+@options.gathered("wanted", LintOptions)
 @takes_decks()
 def command(
     *,
+    given: CallerSettings,
+    wanted: LintOptions,
     decks: GivenDecks,
-    chosen: tuple[str, ...],
-    also: tuple[str, ...],
-    ignored: tuple[str, ...],
-    fail_on: str | None,
     forms: tuple[str, ...],
-    fix: bool,
     unsafe: bool,
-    diff: bool,
-    baseline: str | None,
-    recording: bool,
-    dialect: str | None,
-    no_outside: bool,
     config: str | None,
     isolated: bool,
     force_exclude: bool,
-    statistics: bool,
     exit_zero: bool,
-    jobs: int,
     uncached: bool,
     watch: bool,
     view: View,
@@ -110,15 +99,12 @@ def command(
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), or - for standard input. With -v, files of directories that are skipped are named too.
     """
-    given = CallerSettings(_words(chosen), _words(ignored), _words(also), dialect, decks.units, no_outside)
-    fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
+    fixing = "none" if not wanted.fixing else "unsafe" if unsafe else "safe"
     form, files = outputs(forms)
-    if baseline and recording:
-        claim(baseline, "--baseline")
+    if wanted.baseline and wanted.recording:
+        claim(wanted.baseline, "--baseline")
     Configured(config, isolated)  # wrong usage is reported once, before anything is watched
-
-    def settings() -> Settings:
-        return checked_settings(config, given, fixing, isolated=isolated)
+    settings = partial(checked_settings, config, given, fixing, isolated=isolated)
 
     def once() -> int:
         configured = Configured(config, isolated)
@@ -126,20 +112,16 @@ def command(
         inputs = decks.collect(configured.includes, configured=configured, skipped=skipped, force_exclude=force_exclude)
         for line in sorted(skipped or ()):
             notify(line)
-        aside = diff or (fix and any(file.path is None for file in inputs.files))
-        report = LintReport(
-            form, files, view, configured, fail_on, statistics=statistics, aside=aside, fixing=fix or diff
-        )
-        known = None if uncached or fix or diff else known_findings(given, configured)
-        failing = lint_files(
-            inputs, cache(settings), report, known, baseline, recording=recording, diff=diff, jobs=jobs
-        )
+        aside = wanted.diff or (wanted.fix and any(file.path is None for file in inputs.files))
+        report = LintReport(form, files, view, configured, wanted, aside)
+        memory = None if uncached or wanted.fixing else of_working_folder("lint", repr(given))
+        failing = lint_files(inputs, cache(settings), report, memory)
         return max(inputs.code, FOUND if failing and not exit_zero else DONE)
 
     if watch:
         settings()
-        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, form)
-        watched(once, [*decks.paths, *(path for path in (config, baseline) if path)], view)
+        refuse({"--fix": wanted.fix, "--diff": wanted.diff, "--write-baseline": wanted.recording}, decks.paths, form)
+        watched(once, [*decks.paths, *(path for path in (config, wanted.baseline) if path)], view)
     return once()
 
 
@@ -177,7 +159,7 @@ def watched(once: Callable[[], int], paths: Sequence[str], view: View) -> NoRetu
         try:
             once()
         except (ConfigurationError, click.ClickException) as error:
-            notify(error.format_message() if isinstance(error, click.ClickException) else str(error))
+            notify(str(error))
         view.note(f"{time.strftime('%H:%M:%S')}: waiting for changes; Ctrl-C ends")
         wait_for_change(paths, before)
 

@@ -8,7 +8,6 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
-from pathlib import Path
 from typing import cast
 
 import click
@@ -18,10 +17,10 @@ from mudline.basics.outside import refusing_outside
 from mudline.basics.overwriting import OverwriteError, refusing_overwriting
 from mudline.basics.spelling import nearest
 from mudline.basics.version import __version__
-from mudline.checks.configuration import ConfigurationError
+from mudline.checks.configuration import ConfigurationError, refuses_outside
 from mudline.cli import CLOSED_PIPE, DONE, FOUND, WRONG_USAGE, options, streams
-from mudline.cli.streams import notify, reason
-from mudline.language.diagnostics import PluginError
+from mudline.cli.streams import notify, notify_diagnostics, reason
+from mudline.language.diagnostics import DeckError, PluginError
 from mudline.tools.running.executors import RunError
 
 COMPLETION = "_MUDLINE_COMPLETE"
@@ -59,22 +58,15 @@ class _Commands(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
         return list(COMMANDS)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name == "help":
             return cast("click.Command", _help)
-        module = import_module(f"mudline.cli.{cmd_name}_command") if cmd_name in COMMANDS else None
-        return cast("click.Command | None", module and module.command)
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        if args[0] not in COMMANDS:
-            if ctx.resilient_parsing:  # a shell asks for completions, and shows no errors
-                return None, None, []
-            near = nearest(args[0], self.list_commands(ctx))
-            hint = f": did you mean {near}?" if near else ""
-            ctx.fail(f"unknown command {args[0]!r}{hint}")
-        return super().resolve_command(ctx, args)
+        if cmd_name in COMMANDS:
+            return cast("click.Command", import_module(f"mudline.cli.{cmd_name}_command").command)
+        if not ctx.resilient_parsing:  # a shell that asks for completions shows no errors
+            near = nearest(cmd_name, COMMANDS)
+            ctx.fail(f"unknown command {cmd_name!r}{f': did you mean {near}?' if near else ''}")
+        return None
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's signature
         with formatter.section("Commands"):
@@ -124,8 +116,13 @@ def run(arguments: Sequence[str]) -> int:
     except (ConfigurationError, OverwriteError, RunError) as error:
         notify(str(error))
         return WRONG_USAGE
-    except OSError as error:
-        return _unwritable(error)
+    except OSError as error:  # standard output is full or closed (EINVAL on Windows)
+        closed = isinstance(error, BrokenPipeError) or (os.name == "nt" and error.errno == errno.EINVAL)
+        if not closed:
+            with suppress(OSError):  # standard error may be full too
+                notify(f"the output cannot be written: {reason(error)}")
+        streams.drop()
+        return CLOSED_PIPE if closed else WRONG_USAGE
     return code
 
 
@@ -136,7 +133,7 @@ def _invoke(arguments: Sequence[str]) -> int:
             if not arguments:
                 click.echo(mudline.get_help(context), err=True)
                 return WRONG_USAGE
-            with refusing_outside(_refuses_outside):
+            with refusing_outside(refuses_outside):
                 return cast("int", mudline.invoke(context))
     except click.exceptions.Exit as leaving:
         return leaving.exit_code
@@ -146,6 +143,9 @@ def _invoke(arguments: Sequence[str]) -> int:
             click.echo(f"{error.ctx.get_usage()}\nTry '{path} --help' for help.\n", err=True)
         notify(error.format_message())
         return WRONG_USAGE
+    except DeckError as error:
+        notify_diagnostics(error.diagnostics)
+        return FOUND
     except PluginError as error:
         for fault in error.faults:
             notify(fault)
@@ -153,19 +153,3 @@ def _invoke(arguments: Sequence[str]) -> int:
     except MemoryError:
         notify("out of memory")
         return FOUND
-
-
-def _refuses_outside(folder: Path) -> bool:
-    from mudline.checks.configuration import refuses_outside  # noqa: PLC0415 - only for decks that name files outside
-
-    return refuses_outside(folder)
-
-
-def _unwritable(error: OSError) -> int:
-    """Report that standard output is full, or end quietly if it is closed (EINVAL on Windows)."""
-    closed = isinstance(error, BrokenPipeError) or (os.name == "nt" and error.errno == errno.EINVAL)
-    if not closed:
-        with suppress(OSError):  # standard error may be full too
-            notify(f"the output cannot be written: {reason(error)}")
-    streams.drop()
-    return CLOSED_PIPE if closed else WRONG_USAGE

@@ -12,23 +12,15 @@ from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, require_text, takes_decks
-from mudline.cli.many_files import each_deck
-from mudline.cli.streams import emit_deck, notify, write_bytes
-from mudline.cli.view import Progress, View
+from mudline.cli.inputs import GivenDecks, Input, Inputs, each_deck, reading_named_files, require_text, takes_decks
+from mudline.cli.streams import Progress, View, emit_deck, notify, write_bytes
 from mudline.editing.migration.migrating import Verification
 from mudline.editing.migration.refusals import Continuations
 from mudline.language.deck.loading import load_bytes
 
 
 @options.command("migrate")
-@options.option(
-    "-o",
-    "--output",
-    type=options.OUTPUT_FILE,
-    metavar="OUT",
-    help="Write to this file instead of the deck itself; for one deck only.",
-)
+@options.output(help="Write to this file instead of the deck itself; for one deck only.")
 @options.flag("--diff", help="Print what would change, and write nothing.")
 @options.flag(
     "--verify",

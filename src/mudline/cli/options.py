@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import math
 from collections.abc import Callable, Collection, Sequence
 from functools import partial, wraps
@@ -12,7 +11,7 @@ import click
 
 from mudline.basics import files
 from mudline.basics.overwriting import claim
-from mudline.cli.view import View
+from mudline.cli.streams import View
 
 Command = Callable[..., int]
 
@@ -56,30 +55,44 @@ input_option, output_option, run_option = (partial(option, group=group) for grou
 # -------------------------------------------------------------------------------------------------------------- options
 
 
-def common(command: Command) -> Command:
-    """Add `--color`, `-q` and `-v`; they reach the command as `view` if it has this parameter."""
-    takes_view = "view" in inspect.signature(command).parameters
+Adding = Callable[[Command], Command]
+"""Decorator that adds an argument or options to a command."""
 
-    @wraps(command)
-    def viewed(*, color: str, quiet: bool, verbose: bool, **given: object) -> int:
-        view = {"view": View(color, quiet, verbose)} if takes_view else {}
-        return command(**given, **view)
 
-    for add in (
-        flag("-v", "--verbose", group=COMMON, help="Print more."),
-        flag("-q", "--quiet", group=COMMON, help="Print the result only."),
-        option(
-            "--color",
-            group=COMMON,
-            type=click.Choice(["auto", "always", "never"]),
-            default="auto",
-            show_default=True,
-            help="Colour the output; auto: on a terminal, unless NO_COLOR is set.",
-        ),
-    ):
-        viewed = add(viewed)
-    return viewed
+def gathered(name: str, record: type, *added: Adding) -> Adding:
+    """Return a decorator that adds options, and makes one record of the values that are named as its fields.
 
+    The record reaches the command as `name`, if it has this parameter.
+    """
+
+    def decorated(command: Command) -> Command:
+        def given(**values: object) -> int:
+            made = record(**{field: values.pop(field) for field in record.__annotations__ if field in values})
+            return command(**values, **({name: made} if name in command.__annotations__ else {}))
+
+        wrapped: Command = wraps(command)(given)
+        for add in reversed(added):
+            wrapped = add(wrapped)
+        return wrapped
+
+    return decorated
+
+
+common = gathered(
+    "view",
+    View,
+    option(
+        "--color",
+        group=COMMON,
+        type=click.Choice(["auto", "always", "never"]),
+        default="auto",
+        show_default=True,
+        help="Colour the output; auto: on a terminal, unless NO_COLOR is set.",
+    ),
+    flag("-q", "--quiet", group=COMMON, help="Print the result only."),
+    flag("-v", "--verbose", group=COMMON, help="Print more."),
+)
+"""Decorator that adds `--color`, `-q` and `-v`, which reach the command as `view`."""
 
 jobs = run_option(
     "--jobs",
@@ -117,13 +130,6 @@ encoding = input_option(
 
 complete_files = click.Path().shell_complete
 """Completion of paths by a shell; paths are not checked here, so that messages are the same everywhere."""
-
-deck = click.argument("deck", metavar="DECK", shell_complete=complete_files)
-
-
-def decks(metavar: str) -> Callable[[Command], Command]:
-    """Return the argument of several files and directories, which reaches the command as `paths`."""
-    return click.argument("paths", nargs=-1, required=True, metavar=metavar, shell_complete=complete_files)
 
 
 def complete_rules(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
@@ -168,7 +174,7 @@ force_exclude = input_option(
 )
 
 
-def output_format(*formats: str) -> Callable[[Command], Command]:
+def output_format(*formats: str) -> Adding:
     """Return `--output-format` with the formats of a command."""
     return output_option(
         "--output-format",
@@ -204,6 +210,8 @@ class _OutputFile(click.types.StringParamType):
 
 
 OUTPUT_FILE = _OutputFile()
+output = partial(option, "-o", "--output", type=OUTPUT_FILE, metavar="OUT")
+"""Decorator of `-o`, with the help of a command."""
 
 
 class _AboveZero(click.types.FloatParamType):

@@ -28,11 +28,6 @@ _GAPS = (2, 1)
 _NARROWEST = 12
 """Width below which columns of text are not wrapped."""
 
-Part = str | tuple[str, str]
-"""Piece of a line: a text, or a text and its style."""
-Line = Sequence[Part]
-"""Pieces of a line; a single text is not a line."""
-
 
 class _Console(Console):
     def on_broken_pipe(self) -> None:
@@ -67,7 +62,7 @@ class Printer:
         """Return text of a deck in a form that the terminal can show."""
         return visible(text, self.encoding)
 
-    def line(self, *parts: Part, fold: bool = True) -> None:
+    def line(self, *parts: str | tuple[str, str], fold: bool = True) -> None:
         """Print a line; on a terminal a long line is wrapped between words."""
         self._console.print(Text.assemble(*parts), soft_wrap=not fold)
 

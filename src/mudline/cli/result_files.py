@@ -11,8 +11,7 @@ from pathlib import Path
 import click
 
 from mudline.basics.files import suffix_of
-from mudline.cli.streams import require, writing
-from mudline.cli.view import View, tracked
+from mudline.cli.streams import View, require, tracked, writing
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from textwrap import fill, indent
 from typing import Any
 
@@ -15,9 +14,8 @@ from mudline.checks.output import visible_lines
 from mudline.checks.pages import origin
 from mudline.checks.registry import UnknownRule, rules, select
 from mudline.cli import DONE, options
-from mudline.cli.finding_lines import STYLES
-from mudline.cli.streams import emit_json
-from mudline.cli.view import View
+from mudline.cli.lint_report import STYLES
+from mudline.cli.streams import View, emit_json
 from mudline.language.rules import Rule
 
 _PAGE = 100
@@ -39,7 +37,13 @@ def command(*, code: str | None, output_format: str, view: View) -> int:
     elif code and len(chosen) == 1:
         _print_rule(chosen[0], view)
     else:
-        _print_rules(chosen, view)
+        columns = (
+            text_column("code", lambda rule: rule.code.code),
+            text_column("severity", _severity),
+            text_column("name", lambda rule: rule.code.slug),
+            text_column("finds", lambda rule: rule.page.title + _package(rule, " [{}]")),
+        )
+        view.printer().table(DisplayTable(f"{len(chosen)} rules", columns, chosen))
     return DONE
 
 
@@ -54,17 +58,6 @@ def _object(rule: Rule) -> dict[str, Any]:
         "good": rule.page.good,
         "origin": origin(rule.code.code),
     }
-
-
-def _print_rules(rules: Sequence[Rule], view: View) -> None:
-    """Print a row for each rule: code, severity, name, title."""
-    columns = (
-        text_column("code", lambda rule: rule.code.code),
-        text_column("severity", _severity),
-        text_column("name", lambda rule: rule.code.slug),
-        text_column("finds", lambda rule: rule.page.title + _package(rule, " [{}]")),
-    )
-    view.printer().table(DisplayTable(f"{len(rules)} rules", columns, rules))
 
 
 def _severity(rule: Rule) -> tuple[str, str]:

@@ -16,7 +16,7 @@ from mudline.language.deck.document import json_schema
 
 @options.command("schema")
 @click.argument("what", type=click.Choice(["deck", "config"]), default="deck")
-@options.option("-o", "--output", type=options.OUTPUT_FILE, metavar="OUT", help="Write to this file.")
+@options.output(help="Write to this file.")
 @options.common
 def command(*, what: str, output: str | None) -> int:
     """Print the JSON Schema of a deck in JSON or YAML, as `mudline convert` writes it, or of the configuration.
@@ -50,6 +50,11 @@ MEANINGS = {
 
 def configuration_schema() -> dict[str, Any]:
     """Return the schema in draft 7, which editors support best; codes of plugins are accepted, but not listed."""
+    from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
+
+    own = [rule.code for rule in rules() if origin(rule.code.code) == "mudline"]
+    families = dict.fromkeys(code.code.rstrip("0123456789") for code in own)
+    known = [*families, *(word for code in own for word in (code.code, code.slug))]
     properties = {key: {"description": MEANINGS[key], **_values(key)} for key in KEYS}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
@@ -57,7 +62,7 @@ def configuration_schema() -> dict[str, Any]:
         "type": "object",
         "properties": properties,
         "additionalProperties": False,
-        "definitions": {"rule": _rule()},
+        "definitions": {"rule": {"type": "string", "anyOf": [{"enum": known}, {"pattern": "\\S"}]}},
     }
 
 
@@ -82,13 +87,3 @@ def _values(key: str) -> dict[str, Any]:
         },
     }
     return values.get(key, {"type": "object", "additionalProperties": _CODES})
-
-
-def _rule() -> dict[str, Any]:
-    """Return the schema of rule names: families, codes and slugs are listed, and those of plugins accepted."""
-    from mudline.checks.registry import rules  # noqa: PLC0415 - it imports all rules
-
-    own = [rule.code for rule in rules() if origin(rule.code.code) == "mudline"]
-    families = dict.fromkeys(code.code.rstrip("0123456789") for code in own)
-    known = [*families, *(word for code in own for word in (code.code, code.slug))]
-    return {"type": "string", "anyOf": [{"enum": known}, {"pattern": "\\S"}]}

@@ -15,10 +15,8 @@ from mudline.checks.registry import rules
 from mudline.checks.rules.slips import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, require_text, takes_decks
-from mudline.cli.many_files import each_deck
-from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
-from mudline.cli.view import Progress, View
+from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, each_deck, require_text, takes_decks
+from mudline.cli.streams import Progress, View, emit, emit_deck, notify, notify_diagnostics
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
 from mudline.editing.assignment.fields import ConditionError, FieldTarget, parse_condition, target_of
 from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment
