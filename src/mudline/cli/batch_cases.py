@@ -20,7 +20,6 @@ from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
 from mudline.cli.result_files import beside, result_files, write_tables
 from mudline.cli.streams import UnwrittenError, View, counted, reason
-from mudline.cli.view import View
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.results.cases import CASES, CaseSummary, case_summary

@@ -14,7 +14,6 @@ from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.plots import Plot, plot_option, write_plot
 from mudline.cli.streams import View, emit, emit_json, notify
-from mudline.cli.view import View
 from mudline.model.results.curve_rows import curve_rows, diameters_on, used_curves
 from mudline.model.results.summary import followers
 from mudline.model.scene.curves import ENDS, OF_CURRENT, OF_SEABED

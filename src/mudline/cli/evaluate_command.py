@@ -19,17 +19,11 @@ from mudline.checks.verdict import errors_beside
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
-from mudline.cli.inputs import GivenDeck, refuses_bad_decks
+from mudline.cli.inputs import GivenDeck
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option, write_plot
 from mudline.cli.result_files import beside, require_library, result_files, write_tables
-from mudline.cli.streams import counted, emit, emit_json, notify, notify_diagnostics
-from mudline.cli.view import Progress, View
-from mudline.model.results.against import ResultComparison
-from mudline.cli.inputs import GivenDeck
-from mudline.cli.plots import Plot, numbers_of_elements, plot_option
-from mudline.cli.result_files import beside, require_library, result_files, write_tables
 from mudline.cli.streams import Progress, View, counted, emit, emit_json, notify, notify_diagnostics
-from mudline.model.results.against import ResultComparison, read_reference
+from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
 from mudline.model.results.forms import FORMS, Sink, plan_rows
 from mudline.model.results.forms.text import text_writer, write_text
@@ -103,18 +97,11 @@ def command(
     """
     if len(decks) > 1 or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
         raise click.UsageError("evaluate takes one deck: several decks and folders are for mudline batch")
-    if summary_only:
+    if inputs.summary_only:
         for option, given in {"--against": against, "--plot": plot, "--plan": plan_only}.items():
             if given:
                 raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
-        if inputs.positions is None:
-            raise click.UsageError("--summary-only is for time steps: give a series with --positions")
     if plot_elements and plot is None:
-    if inputs.summary_only:
-        for option, given in {"--against": against, "--plot": plot.path, "--plan": plan_only}.items():
-            if given:
-                raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
-    if plot_elements and plot.path is None:
         raise click.UsageError("--plot-elements is for a plot: give --plot")
     form = options.form_of_file(output, FORMS) if output else ""
     if form:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from mudline.model.curves.backbones import MODELS, Backbone, Soil
 
 if TYPE_CHECKING:
     from mudline.model.curves import FloatArray
-from mudline.model.curves.points import FloatArray
 
 FINEST, COARSEST = 1e-5, 0.1
 """Smallest and largest tolerance."""

@@ -53,7 +53,7 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
 
     Finds: 18:2
     """
-    from mudline.model.contact.laws.suction import release_stiffness  # noqa: PLC0415 - most decks do without
+    from mudline.model.contact.laws.suction import suction_rates  # noqa: PLC0415 - most decks do without
     from mudline.model.scene.assignments import suction_law  # noqa: PLC0415 - most decks do without
 
     for _, where, held in extension.blocks():
@@ -61,7 +61,7 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
         law = suction_law(scene, extension, elements)
         with np.errstate(all="ignore"):
             usable = (law.second_corner >= 0.01) & (law.second_corner <= 0.99) & (law.regularisation > 0.0)
-            needed = np.where(usable, release_stiffness(law, law.regularisation), np.nan)
+            needed = np.where(usable, suction_rates(law, law.regularisation)[1], np.nan)
         known = np.flatnonzero(np.isfinite(needed) & (needed > 0.0))
         if known.size:
             worst = int(known[np.argmax(needed[known])])
@@ -72,15 +72,6 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
                 f"REGULARISATION= (element {scene.element_ids[elements[worst]]})"
             )
             yield Problem(STB001, message, where=where)
-
-
-def _release(law: SuctionLaw) -> Floats:
-    """Return |slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
-    from mudline.model.contact.laws.suction import suction_rates  # noqa: PLC0415 - most decks do without
-
-    with np.errstate(all="ignore"):
-        usable = (law.second_corner >= _SMALLEST_PART) & (law.second_corner <= _LARGEST_PART)
-        return np.where(usable & (law.regularisation > 0.0), suction_rates(law, law.regularisation)[1], np.nan)
 
 
 @rule(STB002, off=True)
