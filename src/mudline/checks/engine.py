@@ -250,27 +250,22 @@ def lint_bytes(
     Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
         are chosen, as nothing else can be checked.
     """
-    return covered_findings(data, name, chosen, units=units, folder=folder, dialect=dialect)[0]
+    return covered_findings(data, name, LintSettings(tuple(chosen), units, dialect), folder)[0]
 
 
 def covered_findings(
-    data: bytes,
-    name: str,
-    chosen: Sequence[Rule],
-    *,
-    units: str | None = None,
-    folder: Path | None = None,
-    dialect: str = "mudline",
+    data: bytes, name: str, settings: LintSettings, folder: Path | None = None
 ) -> tuple[list[Diagnostic], Coverage]:
-    """Return the findings of `lint_bytes`, and how many keywords were read."""
+    """Return the findings of `lint_bytes` under the settings, and how many keywords were read."""
+    refused: tuple[Diagnostic, ...] = ()
     try:
-        deck = read_deck(data, name, units=units, folder=folder)
+        deck = read_deck(data, name, units=settings.units, folder=folder)
     except MisspeltDeckError as error:
-        found = lint_context(LintContext(error.meant, dialect=dialect), chosen)
-        return [*error.diagnostics, *found], coverage_of(error.meant)
+        deck, refused = error.meant, error.diagnostics
     except DeckError as error:
         return list(error.diagnostics), Coverage()
-    return lint_context(LintContext(deck, dialect=dialect), chosen), coverage_of(deck)
+    found = lint_context(LintContext(deck, dialect=settings.dialect), settings.rules)
+    return [*refused, *found], coverage_of(deck)
 
 
 # ---------------------------------------------------------------------------------------------------- joining

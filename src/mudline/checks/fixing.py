@@ -43,9 +43,7 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
             result = fix_bytes(data, name, settings, folder)
         content = data if result.changed is None else result.changed
         with recording_looks() as paths:
-            findings, coverage = covered_findings(
-                content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect
-            )
+            findings, coverage = covered_findings(content, name, settings, folder)
     fixed = with_severities(result.fixed, settings)
     return FileReport(
         name, with_severities(findings, settings), fixed, result.changed, result.note, tuple(paths), coverage
@@ -82,7 +80,7 @@ def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | Non
 
     A deck with errors of reading (SYN...) stays as it is, unless fixes clear all of them.
     """
-    run = _FixRun(StageReader(name, settings, folder), settings)
+    run = _FixRun(StageReader(name, settings, folder))
     first = run.reader.read(data)
     last = run.fix(first)
     if last.unreadable:
@@ -90,18 +88,17 @@ def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | Non
         note = f"not fixed: correct what cannot be read first, {fault.code} in line {fault.line}"
         return FixResult(None, (), note if run.wanted(first) else "")
     changed = last.data if last.data != data else None
-    return FixResult(changed, tuple(run.fixed), run.note())
+    return FixResult(changed, tuple(run.fixed), run.note(last))
 
 
 class _FixRun:
     """Passes over one deck."""
 
-    def __init__(self, reader: StageReader, settings: LintSettings) -> None:
+    def __init__(self, reader: StageReader) -> None:
         self.reader = reader
-        self.settings = settings
+        self.settings = reader.settings
         self.fixed: list[Diagnostic] = []
         self.refused: set[tuple[str, str, str]] = set()
-        self.left = 0
         self.tries = MOST_TRIES
         self.stopped = False
 
@@ -124,18 +121,16 @@ class _FixRun:
                 self.fixed += state.deck.diagnose(repaired)
                 passes += 1
                 changed, state = True, after
-        self.left = sum(_key(state, problem) in self.refused for problem in self.wanted(state))
         return state
 
-    def note(self) -> str:
+    def note(self, last: FixState) -> str:
         """Return a note on findings that could not be fixed, or ""."""
         if self.stopped:
             end = f"{MOST_PASSES} passes" if self.tries > 0 else f"{MOST_TRIES} tries"
             return f"fixing was stopped after {end}: run it again to see what is left"
-        count = self.left
-        if not count:
-            return ""
-        return f"{count} fix{'es' * (count != 1)} not made: the deck would have had a new error or lost something"
+        count = sum(_key(last, problem) in self.refused for problem in self.wanted(last))
+        left = f"{count} fix{'es' * (count != 1)} not made: the deck would have had a new error or lost something"
+        return left if count else ""
 
     def wanted(self, state: FixState) -> list[Problem]:
         """Return the findings that the settings want fixed."""
@@ -153,8 +148,7 @@ class _FixRun:
         fixable = [problem for problem in self.wanted(state) if _key(state, problem) not in self.refused]
         if state.unreadable:
             codes = {error.code.code for error in state.unreadable}
-            cleared = [one for one in fixable if one.code.code in codes and one.weight is Severity.ERROR]
-            return _disjoint(cleared)
+            return _disjoint([one for one in fixable if one.code.code in codes and one.weight is Severity.ERROR])
         return _disjoint([problem for problem in fixable if _repair(problem).applicability == "safe"] or fixable)
 
     def _accepted(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:

@@ -6,7 +6,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from itertools import chain, groupby
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,9 +27,6 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.numbering import Indices
 from mudline.model.scene.references import CURVES, repeated, unused
-
-if TYPE_CHECKING:
-    from mudline.model.scene.curves import SceneCurve
 
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,9 +23,6 @@ from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask
 from mudline.model.scene.sections import Section, format_of
-
-if TYPE_CHECKING:
-    from mudline.model.scene.model import Scene
 
 GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
 GEO003 = Code("GEO003", "drag-diameter-assumed", Severity.INFO)
