@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import JOINTS, ROW_NUMBER, Joined, LintContext, also_in, read_deck
@@ -21,7 +21,7 @@ from mudline.language.codes.lines import SYN001, SYN004, SYN009, SYN010, SYN014
 from mudline.language.codes.references import REF007
 from mudline.language.deck.faults import MisspeltDeckError
 from mudline.language.deck.loading import coverage_of
-from mudline.language.deck.model import BaseProblem, Deck, Opaque, Origin
+from mudline.language.deck.model import BaseProblem, Deck, Origin
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import (
     MORE,
@@ -171,12 +171,12 @@ def may_recover(deck: Deck) -> bool:
     blocks = [block for section in deck.sections for block in section.blocks]
     count = Counter(block.keyword for block in blocks)
     for block in blocks:
-        if type(block) is Opaque:
+        if not isinstance(block, Block):
             return True
-        facts = cast("Block", block).facts
+        facts = block.facts
         if facts.defines and (count[block.keyword] > 1 or not all(map(count.__contains__, facts.beside))):
             return True
-        if facts.later_wins and repeated_set(cast("Block", block)):
+        if facts.later_wins and repeated_set(block):
             return True
     return False
 

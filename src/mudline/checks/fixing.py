@@ -44,10 +44,8 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
         content = data if result.changed is None else result.changed
         with recording_looks() as paths:
             findings, coverage = covered_findings(content, name, settings, folder)
-    fixed = with_severities(result.fixed, settings)
-    return FileReport(
-        name, with_severities(findings, settings), fixed, result.changed, result.note, tuple(paths), coverage
-    )
+    found, fixed = (with_severities(each, settings) for each in (findings, result.fixed))
+    return FileReport(name, found, fixed, result.changed, result.note, tuple(paths), coverage)
 
 
 def with_severities(findings: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
@@ -84,7 +82,7 @@ def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | Non
     first = run.reader.read(data)
     last = run.fix(first)
     if last.unreadable:
-        fault = last.deck.diagnose(last.unreadable)[0]
+        fault = last.context.deck.diagnose(last.unreadable)[0]
         note = f"not fixed: correct what cannot be read first, {fault.code} in line {fault.line}"
         return FixResult(None, (), note if run.wanted(first) else "")
     changed = last.data if last.data != data else None
@@ -118,7 +116,7 @@ class _FixRun:
             done = {id(problem) for problem in repaired} if after else set()
             self.refused |= {_key(state, problem) for problem in problems if id(problem) not in done}
             if after is not None:
-                self.fixed += state.deck.diagnose(repaired)
+                self.fixed += state.context.deck.diagnose(repaired)
                 passes += 1
                 changed, state = True, after
         return state
@@ -219,11 +217,6 @@ class FixState:
         """Text of this stage."""
         return self.text.source
 
-    @property
-    def deck(self) -> Deck:
-        """Deck of this stage."""
-        return self.context.deck
-
     def errors(self, edits: Sequence[TextEdit] = (), source: Source | None = None) -> Counter[tuple[str, int]]:
         """Return code and line of each error, in the deck as it is written or as corrected.
 
@@ -237,14 +230,14 @@ class FixState:
             new = start < 0 or undoing.is_in_new_lines(span)
             return error.code.code, 0 if new else written.position(undoing.before(span).start)[0]
 
-        sources = ((*self.deck.problems, *self.context.scene.problems), self.findings)
+        sources = ((*self.context.deck.problems, *self.context.scene.problems), self.findings)
         as_written, as_meant = (Counter(place(one) for one in each if one.weight is Severity.ERROR) for each in sources)
         return as_written | as_meant
 
     @property
     def unreadable(self) -> list[Problem]:
         """Errors of reading."""
-        errors = (problem for problem in self.deck.problems if problem.weight is Severity.ERROR)
+        errors = (problem for problem in self.context.deck.problems if problem.weight is Severity.ERROR)
         return [error for error in errors if error.code.code.startswith("SYN")]
 
     @cached_property
@@ -264,8 +257,7 @@ class StageReader(NamedTuple):
 
     def read(self, data: bytes) -> FixState:
         """Return a stage."""
-        source = Source.from_bytes(data, self.name)
-        deck = read_source(source, units=self.settings.units)
+        deck = read_source(Source.from_bytes(data, self.name), units=self.settings.units)
         deck.folder = self.folder
         context = LintContext(deck, dialect=self.settings.dialect, fixing=True)
         problems = joined_problems(context, self.settings.rules)
@@ -291,9 +283,10 @@ class StageReader(NamedTuple):
 
 def _same_elsewhere(before: FixState, after: FixState, edits: Sequence[TextEdit]) -> bool:
     """Return True if both have the same blocks, with equal models where nothing was edited."""
-    if _outline(before.deck) != _outline(after.deck):
+    if _outline(before.context.deck) != _outline(after.context.deck):
         return False
-    for raw, own, edited in zip(before.text.tree.sections, before.deck.sections, after.deck.sections, strict=True):
+    stages = (before.text.tree.sections, before.context.deck.sections, after.context.deck.sections)
+    for raw, own, edited in zip(*stages, strict=True):
         for block, model, edited_model in zip(raw.blocks, own.blocks, edited.blocks, strict=True):
             start, end = block.span
             touched = any(edit.span.start <= end and start <= edit.span.end for edit in edits)

@@ -79,8 +79,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
             if numbers_given := [name for name in numbers if getattr(entry.section, name, None) is not None]:
                 names = " and ".join(_NAMES[name] for name in numbers_given)
                 message = f"{names} is given as a number, and {key}= names a curve for it: remove one of them"
-                place = where.inside(format_of(entry), _NAMES[numbers_given[0]])
-                yield Problem(GEO002, message, where=place)
+                yield Problem(GEO002, message, where=where.inside(format_of(entry), _NAMES[numbers_given[0]]))
 
 
 @rule(GEO003)
