@@ -1,4 +1,4 @@
-"""Running rules over decks, under the settings of a run; findings that repeat another one are joined to it."""
+"""Running rules over decks, under the settings of a run; repeated findings are joined."""
 
 from __future__ import annotations
 
@@ -281,7 +281,10 @@ _DIGITS = re.compile(r"-?[0-9]+")
 
 
 def joined_findings(context: LintContext, problems: list[Problem]) -> list[Problem]:
-    """Return the findings, with those that only repeat another one joined to it (`Problem.following`)."""
+    """Return one finding for one cause: those that repeat another one, or that a joint declares, are joined to it.
+
+    They are in its `Problem.following`. Nothing is read or checked for this.
+    """
     text, origin = context.text, context.deck.origin
     if type(origin) is Origin:  # a program made the deck, which has no lines
         return problems

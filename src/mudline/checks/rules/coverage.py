@@ -1,4 +1,4 @@
-"""What elements and nodes are given twice, or not at all: properties, conditions, seabed laws, their own place."""
+"""Properties, conditions and seabed laws that elements and nodes are given twice, or not; two elements in one place."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Parts of a model that lack something, or have it twice: sections, nodes without elements, ends that hang free."""
+"""Parts of a model that lack something, or have it twice: sections, nodes without elements, ends that hang free.
+
+A deck without `$LOAD CASE`, or without `$MODEL`, is a part of a job, and nothing is missing in it.
+"""
 
 from __future__ import annotations
 
