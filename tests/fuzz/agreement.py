@@ -101,8 +101,8 @@ def fixes(data: bytes) -> None:
             places = origins[line - 1] if line else [0]
             if not any((code, place) in known for place in places):
                 raise BrokenPromiseError(f"after {fixing} fixes: new {code}")
-        whole = fixing is Fixing.SAFE and not before.errors() and coverage_of(before.deck).whole
-        if whole and compare_decks(before.deck, after.deck).differences:
+        whole = fixing is Fixing.SAFE and not before.errors() and coverage_of(before.context.deck).whole
+        if whole and compare_decks(before.context.deck, after.context.deck).differences:
             raise BrokenPromiseError("safe fixes change what the deck means")
         removed = sum(1 for line in old if line.strip()) - sum(1 for line in new if line.strip())
         listed = sum(edit.end[0] - edit.start[0] + 1 for one in result.fixed if one.fix for edit in one.fix.edits)

@@ -199,8 +199,7 @@ class _ConfigurationFile:
                 self.codes(glob, self.texts(glob, codes))
         elif key in LISTS:
             texts = self.texts(key, value)
-            if key in OF_CODES:
-                self.codes(key, texts)
+            self.codes(key, texts if key in OF_CODES else [])
 
     def single(self, key: str, value: object) -> None:
         if key == NO_OUTSIDE and not isinstance(value, bool):

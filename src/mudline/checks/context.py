@@ -91,10 +91,9 @@ class LintContext:
 
     def once(self, make: Callable[[LintContext], T]) -> T:
         """Return the result of a function of this deck, computed once for all rules that ask."""
-        try:
-            found: T = self._made[make]
-        except KeyError:
-            found = self._made[make] = make(self)
+        if make not in self._made:
+            self._made[make] = make(self)
+        found: T = self._made[make]
         return found
 
     def problems_of(self, code: Code) -> Sequence[Problem]:

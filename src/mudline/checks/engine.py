@@ -1,4 +1,4 @@
-"""Running rules over decks, under the settings of a run; findings that repeat another one are joined to it."""
+"""Running rules over decks, under the settings of a run; repeated findings are joined."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import JOINTS, ROW_NUMBER, Joined, LintContext, also_in, read_deck
@@ -21,7 +21,7 @@ from mudline.language.codes.lines import SYN001, SYN004, SYN009, SYN010, SYN014
 from mudline.language.codes.references import REF007
 from mudline.language.deck.faults import MisspeltDeckError
 from mudline.language.deck.loading import coverage_of
-from mudline.language.deck.model import BaseProblem, Deck, Opaque, Origin
+from mudline.language.deck.model import BaseProblem, Deck, Origin
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import (
     MORE,
@@ -171,12 +171,12 @@ def may_recover(deck: Deck) -> bool:
     blocks = [block for section in deck.sections for block in section.blocks]
     count = Counter(block.keyword for block in blocks)
     for block in blocks:
-        if type(block) is Opaque:
+        if not isinstance(block, Block):
             return True
-        facts = cast("Block", block).facts
+        facts = block.facts
         if facts.defines and (count[block.keyword] > 1 or not all(map(count.__contains__, facts.beside))):
             return True
-        if facts.later_wins and repeated_set(cast("Block", block)):
+        if facts.later_wins and repeated_set(block):
             return True
     return False
 
@@ -250,27 +250,22 @@ def lint_bytes(
     Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
         are chosen, as nothing else can be checked.
     """
-    return covered_findings(data, name, chosen, units=units, folder=folder, dialect=dialect)[0]
+    return covered_findings(data, name, LintSettings(tuple(chosen), units, dialect), folder)[0]
 
 
 def covered_findings(
-    data: bytes,
-    name: str,
-    chosen: Sequence[Rule],
-    *,
-    units: str | None = None,
-    folder: Path | None = None,
-    dialect: str = "mudline",
+    data: bytes, name: str, settings: LintSettings, folder: Path | None = None
 ) -> tuple[list[Diagnostic], Coverage]:
-    """Return the findings of `lint_bytes`, and how many keywords were read."""
+    """Return the findings of `lint_bytes` under the settings, and how many keywords were read."""
+    refused: tuple[Diagnostic, ...] = ()
     try:
-        deck = read_deck(data, name, units=units, folder=folder)
+        deck = read_deck(data, name, units=settings.units, folder=folder)
     except MisspeltDeckError as error:
-        found = lint_context(LintContext(error.meant, dialect=dialect), chosen)
-        return [*error.diagnostics, *found], coverage_of(error.meant)
+        deck, refused = error.meant, error.diagnostics
     except DeckError as error:
         return list(error.diagnostics), Coverage()
-    return lint_context(LintContext(deck, dialect=dialect), chosen), coverage_of(deck)
+    found = lint_context(LintContext(deck, dialect=settings.dialect), settings.rules)
+    return [*refused, *found], coverage_of(deck)
 
 
 # ---------------------------------------------------------------------------------------------------- joining
@@ -286,7 +281,10 @@ _DIGITS = re.compile(r"-?[0-9]+")
 
 
 def joined_findings(context: LintContext, problems: list[Problem]) -> list[Problem]:
-    """Return the findings, with those that only repeat another one joined to it (`Problem.following`)."""
+    """Return one finding for one cause: those that repeat another one, or that a joint declares, are joined to it.
+
+    They are in its `Problem.following`. Nothing is read or checked for this.
+    """
     text, origin = context.text, context.deck.origin
     if type(origin) is Origin:  # a program made the deck, which has no lines
         return problems

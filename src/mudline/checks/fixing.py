@@ -43,13 +43,9 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
             result = fix_bytes(data, name, settings, folder)
         content = data if result.changed is None else result.changed
         with recording_looks() as paths:
-            findings, coverage = covered_findings(
-                content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect
-            )
-    fixed = with_severities(result.fixed, settings)
-    return FileReport(
-        name, with_severities(findings, settings), fixed, result.changed, result.note, tuple(paths), coverage
-    )
+            findings, coverage = covered_findings(content, name, settings, folder)
+    found, fixed = (with_severities(each, settings) for each in (findings, result.fixed))
+    return FileReport(name, found, fixed, result.changed, result.note, tuple(paths), coverage)
 
 
 def with_severities(findings: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
@@ -82,26 +78,25 @@ def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | Non
 
     A deck with errors of reading (SYN...) stays as it is, unless fixes clear all of them.
     """
-    run = _FixRun(StageReader(name, settings, folder), settings)
+    run = _FixRun(StageReader(name, settings, folder))
     first = run.reader.read(data)
     last = run.fix(first)
     if last.unreadable:
-        fault = last.deck.diagnose(last.unreadable)[0]
+        fault = last.context.deck.diagnose(last.unreadable)[0]
         note = f"not fixed: correct what cannot be read first, {fault.code} in line {fault.line}"
         return FixResult(None, (), note if run.wanted(first) else "")
     changed = last.data if last.data != data else None
-    return FixResult(changed, tuple(run.fixed), run.note())
+    return FixResult(changed, tuple(run.fixed), run.note(last))
 
 
 class _FixRun:
     """Passes over one deck."""
 
-    def __init__(self, reader: StageReader, settings: LintSettings) -> None:
+    def __init__(self, reader: StageReader) -> None:
         self.reader = reader
-        self.settings = settings
+        self.settings = reader.settings
         self.fixed: list[Diagnostic] = []
         self.refused: set[tuple[str, str, str]] = set()
-        self.left = 0
         self.tries = MOST_TRIES
         self.stopped = False
 
@@ -121,21 +116,19 @@ class _FixRun:
             done = {id(problem) for problem in repaired} if after else set()
             self.refused |= {_key(state, problem) for problem in problems if id(problem) not in done}
             if after is not None:
-                self.fixed += state.deck.diagnose(repaired)
+                self.fixed += state.context.deck.diagnose(repaired)
                 passes += 1
                 changed, state = True, after
-        self.left = sum(_key(state, problem) in self.refused for problem in self.wanted(state))
         return state
 
-    def note(self) -> str:
+    def note(self, last: FixState) -> str:
         """Return a note on findings that could not be fixed, or ""."""
         if self.stopped:
             end = f"{MOST_PASSES} passes" if self.tries > 0 else f"{MOST_TRIES} tries"
             return f"fixing was stopped after {end}: run it again to see what is left"
-        count = self.left
-        if not count:
-            return ""
-        return f"{count} fix{'es' * (count != 1)} not made: the deck would have had a new error or lost something"
+        count = sum(_key(last, problem) in self.refused for problem in self.wanted(last))
+        left = f"{count} fix{'es' * (count != 1)} not made: the deck would have had a new error or lost something"
+        return left if count else ""
 
     def wanted(self, state: FixState) -> list[Problem]:
         """Return the findings that the settings want fixed."""
@@ -153,8 +146,7 @@ class _FixRun:
         fixable = [problem for problem in self.wanted(state) if _key(state, problem) not in self.refused]
         if state.unreadable:
             codes = {error.code.code for error in state.unreadable}
-            cleared = [one for one in fixable if one.code.code in codes and one.weight is Severity.ERROR]
-            return _disjoint(cleared)
+            return _disjoint([one for one in fixable if one.code.code in codes and one.weight is Severity.ERROR])
         return _disjoint([problem for problem in fixable if _repair(problem).applicability == "safe"] or fixable)
 
     def _accepted(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:
@@ -225,11 +217,6 @@ class FixState:
         """Text of this stage."""
         return self.text.source
 
-    @property
-    def deck(self) -> Deck:
-        """Deck of this stage."""
-        return self.context.deck
-
     def errors(self, edits: Sequence[TextEdit] = (), source: Source | None = None) -> Counter[tuple[str, int]]:
         """Return code and line of each error, in the deck as it is written or as corrected.
 
@@ -243,14 +230,14 @@ class FixState:
             new = start < 0 or undoing.is_in_new_lines(span)
             return error.code.code, 0 if new else written.position(undoing.before(span).start)[0]
 
-        sources = ((*self.deck.problems, *self.context.scene.problems), self.findings)
+        sources = ((*self.context.deck.problems, *self.context.scene.problems), self.findings)
         as_written, as_meant = (Counter(place(one) for one in each if one.weight is Severity.ERROR) for each in sources)
         return as_written | as_meant
 
     @property
     def unreadable(self) -> list[Problem]:
         """Errors of reading."""
-        errors = (problem for problem in self.deck.problems if problem.weight is Severity.ERROR)
+        errors = (problem for problem in self.context.deck.problems if problem.weight is Severity.ERROR)
         return [error for error in errors if error.code.code.startswith("SYN")]
 
     @cached_property
@@ -270,8 +257,7 @@ class StageReader(NamedTuple):
 
     def read(self, data: bytes) -> FixState:
         """Return a stage."""
-        source = Source.from_bytes(data, self.name)
-        deck = read_source(source, units=self.settings.units)
+        deck = read_source(Source.from_bytes(data, self.name), units=self.settings.units)
         deck.folder = self.folder
         context = LintContext(deck, dialect=self.settings.dialect, fixing=True)
         problems = joined_problems(context, self.settings.rules)
@@ -297,9 +283,10 @@ class StageReader(NamedTuple):
 
 def _same_elsewhere(before: FixState, after: FixState, edits: Sequence[TextEdit]) -> bool:
     """Return True if both have the same blocks, with equal models where nothing was edited."""
-    if _outline(before.deck) != _outline(after.deck):
+    if _outline(before.context.deck) != _outline(after.context.deck):
         return False
-    for raw, own, edited in zip(before.text.tree.sections, before.deck.sections, after.deck.sections, strict=True):
+    stages = (before.text.tree.sections, before.context.deck.sections, after.context.deck.sections)
+    for raw, own, edited in zip(*stages, strict=True):
         for block, model, edited_model in zip(raw.blocks, own.blocks, edited.blocks, strict=True):
             start, end = block.span
             touched = any(edit.span.start <= end and start <= edit.span.end for edit in edits)

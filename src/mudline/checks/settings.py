@@ -11,12 +11,6 @@ from mudline.checks.registry import code_fault, rules, select
 from mudline.language.diagnostics import Severity
 
 
-def _unfixable(configuration: Configuration) -> frozenset[str]:
-    unfixable = _codes(configuration.words("unfixable"))
-    fixable = configuration.words("fixable")
-    return unfixable | ({rule.code.code for rule in rules()} - _codes(fixable)) if fixable else unfixable
-
-
 def _codes(words: list[str]) -> frozenset[str]:
     return frozenset(rule.code.code for rule in select(words)) if words else frozenset()
 
@@ -54,13 +48,16 @@ class Settings:
             if word != "off"
             for rule in select([code])
         }
+        unfixable, fixable = _codes(found.words("unfixable")), found.words("fixable")
+        if fixable:
+            unfixable |= {rule.code.code for rule in rules()} - _codes(fixable)
         return LintSettings(
             running,
             given.units,
             given.dialect or found.values.get("dialect", "mudline"),
             severities,
             self.fixing,
-            _unfixable(found),
+            unfixable,
             given.no_outside or bool(found.values.get(NO_OUTSIDE)),
         )
 

@@ -170,15 +170,13 @@ def _place(directive: Directive) -> str:
 
 
 def suppressions(context: LintContext) -> Suppressions | None:
-    """Return the suppressions of a deck's comments; None for a deck without such comments. Rules call `context.once`.
+    """Return the suppressions of a deck's comments; None if it does not name mudline. Rules call `context.once`.
 
     A deck without a text, which a program made, hides nothing.
     """
     origin = context.text
     text = origin.source.unified if origin and origin.source.readable else ""
     if origin is None or "mudline" not in text.lower():
-        return None
-    if not any(leaf.kind is LeafKind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
         return None
     suppressions_ = Suppressions(origin)
     waiting: list[Directive] = []

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import click
 
 from mudline.basics.short_repr import counted
-from mudline.checks.engine import covered_findings
+from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import rules
 from mudline.checks.rules.slips import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
@@ -137,7 +137,7 @@ class _SetRun(NamedTuple):
             notify_diagnostics(warnings + remarks, refused=False)
 
     def _findings(self, file: Input, data: bytes) -> list[Diagnostic]:
-        return covered_findings(data, file.name, rules(), units=self.units, folder=file.folder)[0]
+        return lint_bytes(data, file.name, rules(), units=self.units, folder=file.folder)
 
 
 def _write(

@@ -37,16 +37,12 @@ def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[s
     yield "| severity | place | rule | message |\n| --- | --- | --- | --- |\n"
     for finding in listed[:_MOST]:
         place = _plain(f"{finding.file.removeprefix('./')}:{finding.line}:{finding.column}")
-        yield f"| {finding.severity.value} | {place} | {_rule(finding)} | {_plain(finding.message)} |\n"
+        address = page(finding.code) or ""
+        code = f"[{finding.code}]({address})" if address.startswith("http") else finding.code
+        slug, message = _plain(finding.slug), _plain(finding.message)
+        yield f"| {finding.severity.value} | {place} | {code} {slug} | {message} |\n"
     if len(listed) > _MOST:
         yield f"\nand {counted(len(listed) - _MOST, 'finding')} more.\n"
-
-
-def _rule(finding: Diagnostic) -> str:
-    """Return the code, as a link if its page is on a site, and the slug."""
-    address = page(finding.code) or ""
-    code = f"[{finding.code}]({address})" if address.startswith("http") else finding.code
-    return f"{code} {_plain(finding.slug)}"
 
 
 def _plain(text: str) -> str:

@@ -1,9 +1,9 @@
-"""What elements and nodes are given twice, or not at all: properties, conditions, seabed laws, their own place."""
+"""Properties, conditions and seabed laws that elements and nodes are given twice, or not; two elements in one place."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, cast
+from typing import Any
 
 import numpy as np
 
@@ -28,9 +28,6 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.references import KEYWORD, is_of_vessels
 from mudline.model.scene.sets import ALL, NamedSet
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_properties import SeabedProperties, SeabedSet
 
 GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)
 GEO013 = Code("GEO013", "overlapping-properties", Severity.INFO)
@@ -423,10 +420,9 @@ def _points(scene: Scene, grant: SetLaw) -> Floats:
     return scene.laws.curves[grant.curve].points if grant.curve >= 0 else np.array([np.nan])
 
 
-def _entry(scene: Scene, grant: SetLaw) -> SeabedSet:
+def _entry(scene: Scene, grant: SetLaw) -> Any:  # noqa: ANN401 - an entry of a keyword that is imported when it is read
     """Return the entry of *SEABED PROPERTIES that gives a law."""
-    block = cast("SeabedProperties", scene.deck.sections[grant.where.section].blocks[grant.where.block])
-    return block.sets[int(grant.where.path[1])]
+    return scene.deck.sections[grant.where.section].blocks[grant.where.block].at(grant.where.path[:2])[1]
 
 
 def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:

@@ -6,7 +6,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from itertools import chain, groupby
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,9 +27,6 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.numbering import Indices
 from mudline.model.scene.references import CURVES, repeated, unused
-
-if TYPE_CHECKING:
-    from mudline.model.scene.curves import SceneCurve
 
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
 
@@ -61,9 +58,8 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     idle: dict[str, list[SceneCurve]] = {}
     for curve in scene.laws.curves:
         name = folded(curve.name)
-        if curve.embedment or not curve.name or name in scene.referenced:
-            continue
-        if read_number(name) is not None:  # a STIFFNESS= may mean it, which SBD017 reports
+        is_number = read_number(name) is not None  # a STIFFNESS= may mean it, which SBD017 reports
+        if curve.embedment or not curve.name or name in scene.referenced or is_number:
             continue
         if name in idle:
             idle[name].append(curve)
@@ -193,16 +189,10 @@ def _by_curve(leaves: list[Leaf], source: str, keys: frozenset[str], starts: lis
     lines: dict[int, list[Span]] = {start: [] for start in starts}
     for leaf in leaves:
         at = bisect_right(starts, leaf.span.end - 1) - 1
-        if at >= 0 and _counts(leaf, source, keys):
+        is_data = leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)
+        if at >= 0 and (first_key(source, leaf.span) in keys if leaf.kind is LeafKind.UNDECIDED else is_data):
             lines[starts[at]].append(leaf.span)
     return lines
-
-
-def _counts(leaf: Leaf, source: str, keys: frozenset[str]) -> bool:
-    """Return True if a line belongs to the curve and is not a comment."""
-    if leaf.kind is LeafKind.UNDECIDED:
-        return first_key(source, leaf.span) in keys
-    return leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)
 
 
 @rule(SBD017)

@@ -225,8 +225,7 @@ def given_twice(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:1
     """
-    deck = context.scene.deck
-    for i, section in enumerate(deck.own_sections):
+    for i, section in enumerate(context.scene.deck.own_sections):
         seen: set[object] = set()
         for j, block in enumerate(section.blocks):
             if not isinstance(block, Block):
@@ -293,9 +292,8 @@ def cannot_expand(context: LintContext) -> Iterator[Problem]:
     Finds: 6:2
     """
     named = context.written("COMBINATIONS", "PREPROCESSOR")
-    if not named or any(problem.code.severity is Severity.ERROR for problem in context.deck.problems):
-        return
-    if any(True for _ in of_variations(context.deck)):
+    faulty = any(problem.code.severity is Severity.ERROR for problem in context.deck.problems)
+    if not named or faulty or any(True for _ in of_variations(context.deck)):
         return
     from mudline.editing.variations.planning import plan_faults  # noqa: PLC0415 - few decks have combinations
 

@@ -197,13 +197,12 @@ def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
     Finds: 7:20
     """
     longest = max((wave.period for wave in context.once(waves)), default=0.0)
-    continues = bool(context.blocks("RESTART", "LOAD CASE"))
     for where, span in spans(context):
         ramp, start, end = (number(span, name) for name in ("ramp", "start", "end"))
         if ramp > end - start > 0.0:
             message = f"loads grow over {ramp:g}, longer than the run lasts ({end - start:g}): shorten the ramp"
             yield Problem(TIM003, message, where=where.inside("ramp"))
-        elif 0.0 < ramp < longest and not continues:
+        elif 0.0 < ramp < longest and not context.blocks("RESTART", "LOAD CASE"):
             message = f"loads grow over {ramp:g}, less than the wave period {longest:g}: give them a period at least"
             yield Problem(TIM003, message, where=where.inside("ramp"))
 
@@ -268,8 +267,7 @@ def storage_given_twice(context: LintContext) -> Iterator[Problem]:
     seen: set[int] = set()
     for where, _ in context.blocks("DATABASE", "LOAD CASE"):
         if where.section in seen:
-            message = "this load case has a *DATABASE above: remove one of them"
-            yield Problem(TIM006, message, where=where)
+            yield Problem(TIM006, "this load case has a *DATABASE above: remove one of them", where=where)
         seen.add(where.section)
 
 

@@ -1,9 +1,11 @@
-"""Parts of a model that lack something, or have it twice: sections, nodes without elements, ends that hang free."""
+"""Parts of a model that lack something, or have it twice: sections, nodes without elements, ends that hang free.
+
+A deck without `$LOAD CASE`, or without `$MODEL`, is a part of a job, and nothing is missing in it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,9 +26,6 @@ from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask
 from mudline.model.scene.sections import Section, format_of
-
-if TYPE_CHECKING:
-    from mudline.model.scene.model import Scene
 
 GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
 GEO003 = Code("GEO003", "drag-diameter-assumed", Severity.INFO)
@@ -83,8 +82,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
             if numbers_given := [name for name in numbers if getattr(entry.section, name, None) is not None]:
                 names = " and ".join(_NAMES[name] for name in numbers_given)
                 message = f"{names} is given as a number, and {key}= names a curve for it: remove one of them"
-                place = where.inside(format_of(entry), _NAMES[numbers_given[0]])
-                yield Problem(GEO002, message, where=place)
+                yield Problem(GEO002, message, where=where.inside(format_of(entry), _NAMES[numbers_given[0]]))
 
 
 @rule(GEO003)

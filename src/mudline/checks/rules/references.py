@@ -303,8 +303,7 @@ def misspelt_output(context: LintContext) -> Iterator[Problem]:
     used = context.scene.context.names[Names.VARIABLE].used
     requests = [(use.where, use.name) for use in used if use.where.section < own]
     for where, name in [*requests, *_of_kept_lines(context)]:
-        words = name.upper().replace("-", " ").split()
-        for word in words:
+        for word in name.upper().replace("-", " ").split():
             near = nearest(word, WORDS, effort) if word not in WORDS and len(word) >= _SHORTEST else ""
             if near and word not in (f"{near}S", f"{near}ES"):
                 message = f"output {shown(name)}: {shown(word)} is no usual word (did you mean {near}?)"

@@ -242,10 +242,9 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     reading = scene.context
     if reading.restart or any(map(is_superseded, reading.misplaced)) or "SEABED PROPERTIES" in reading.misplaced:
         return
-    if "SEABED CONTACT" in context.keywords:
-        return  # it may hold the pipe
-    if context.problems_of(SBD004):
-        return  # it reports that there is no stiffness
+    # *SEABED CONTACT may hold the pipe, and SBD004 reports that there is no stiffness.
+    if "SEABED CONTACT" in context.keywords or context.problems_of(SBD004):
+        return
     yield from _zeros(context)
     free = scene.law == LawKind.NONE
     if "PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords:
@@ -302,8 +301,6 @@ def _middles(scene: Scene, elements: Indices) -> list[tuple[float, ...]]:
 
 def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     """Yield blocks without stiffness that apply to elements, unless a later block of unknown elements may apply."""
-    if not elements.size:
-        return
     grants = scene.laws.set_laws
     last_open = max((index for index, grant in enumerate(grants) if grant.set_.open), default=-1)
     legacy_open = any(grant.set_.open for grant in grants if grant.family == "legacy")

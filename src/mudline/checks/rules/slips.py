@@ -35,11 +35,13 @@ UNT007 = Code("UNT007", "unusual-value", Severity.WARNING)
 UNT008 = Code("UNT008", "remarkable-value", Severity.INFO)
 
 CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, UNT006, UNT007)}
+
 _INCH = FOOT / 12
 _POUND_MASS = 0.45359237
 _GRAVITY = 9.80665
 _SLUG = POUND / FOOT
 _KIP = 1e3 * POUND
+
 SLIPS = {
     "L": {"mm": 1e-3, "inches": _INCH, "ft": FOOT, "m": 1.0, "cm": 1e-2},
     "F": {"N": 1.0, "kN": 1e3, "MN": 1e6, "lbf": POUND, "kip": _KIP, "tonnes": 1e3 * _GRAVITY},

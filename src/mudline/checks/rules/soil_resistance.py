@@ -397,6 +397,5 @@ def _gains_again(points: Table) -> int | None:
         falls = np.flatnonzero(steps < 0.0)
         rises = np.flatnonzero(steps > 0.0)
         if falls.size and rises.size and rises[-1] > falls[0]:
-            again = rises[rises > falls[0]][0]
-            return int(rows[again])
+            return int(rows[rises[rises > falls[0]][0]])
     return None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,10 +19,6 @@ from mudline.model.scene.deck_values import number
 from mudline.model.scene.laws import Extension, rule_of_extension
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
-
-if TYPE_CHECKING:
-    from mudline.model.scene.laws import Extension
-    from mudline.model.scene.oscillation import Oscillation
 
 EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
 STB001 = Code("STB001", "suction-snap", Severity.INFO)
@@ -116,12 +111,15 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     if not springs:
         return
     stiffest = max(springs, key=lambda spring: spring.omega)
+    line, base = scene.line_of(stiffest.where), scene.deck.base_of(stiffest.where)
+    contact = f"{stiffest.name}, node {scene.node_ids[stiffest.node]}" + (f", line {line}" if line else "")
+    contact += f" of {Path(base[0].file).name}" if base else ""
     advised = rounded_down(ADVISED_OMEGA_DT / stiffest.omega)
     for where, block in blocks:
         step = number(block.fixed, "increment")
         if stiffest.omega * step > ADVISED_OMEGA_DT:
             message = (
-                f"omega dt = {stiffest.omega * step:.3g} on the stiffest contact ({_described(scene, stiffest)}, "
+                f"omega dt = {stiffest.omega * step:.3g} on the stiffest contact ({contact}, "
                 f"omega = {stiffest.omega:.4g} rad/s): {_effect(stiffest.kind, stiffest.omega * step)}; give a step of "
                 f"{advised:.3g} or less if `mudline study` finds this one too long"
             )
@@ -177,13 +175,6 @@ def _effect(kind: str, product: float) -> str:
         return "the spring of what sticks is not resolved"
     fast = "up to 11 %" if product <= 1.0 else "far" if product <= 2.0 else "up to three times"
     return f"with Newmark's scheme a bare mass rebounds {fast} too fast"
-
-
-def _described(scene: Scene, item: Oscillation) -> str:
-    """Return the law, node and line of a contact in words, with the file if it is in a continued deck."""
-    line, base = scene.line_of(item.where), scene.deck.base_of(item.where)
-    place = f", line {line}" if line else ""
-    return f"{item.name}, node {scene.node_ids[item.node]}{place}" + (f" of {Path(base[0].file).name}" if base else "")
 
 
 @rule(STB003)
@@ -256,9 +247,7 @@ def _beside(context: LintContext) -> Iterator[Problem]:
 
 def _extremes(entry: SceneCurve) -> tuple[float, float]:
     """Return the smallest and the largest slope of a curve, flat segments left out; NaN without any."""
-    if entry.curve is None or not entry.whole:
-        return (math.nan, math.nan)
-    slopes = np.abs(entry.curve.slopes)
+    slopes = np.abs(entry.curve.slopes) if entry.curve is not None and entry.whole else np.zeros(0)
     slopes = slopes[slopes > 0.0]
     return (float(slopes.min()), float(slopes.max())) if slopes.size else (math.nan, math.nan)
 

@@ -62,11 +62,11 @@ def _by_code(context: LintContext) -> dict[str, list[Problem]]:
         shallow = bool(measures & OF_DEPTH) and any(True for _ in height_over_depth(context))
         if heavy or shallow:
             judged = _of_deck(replace(deck, weighs=not heavy, deep=not shallow))
-    text = context.text
-    commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text and judged else set()
+    place = context.deck.origin.place
+    commas = {place(problem).line for problem in context.problems_of(SYN015)} if judged else set()
     by_code: dict[str, list[Problem]] = {}
     for problem in (each.problem for each in judged):
-        if not commas or not text or text.place(problem).line not in commas:
+        if not commas or place(problem).line not in commas:
             by_code.setdefault(problem.code.code, []).append(problem)
     return by_code
 
