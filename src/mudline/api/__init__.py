@@ -297,8 +297,7 @@ def read_positions(path: object, scene: Scene, *, columns: Mapping[str, str] | N
         return require_order(placed, resolved, f"<{type(path).__name__}>")
     file = given_path(path)
     of_program = not headings and file.suffix.lower() not in {".npz", ".npy"}
-    returned = read_returned(file, resolved) if of_program else None
-    if returned is not None:
+    if of_program and (returned := read_returned(file, resolved)) is not None:
         return returned
     return require_order(positions.read_positions(file, resolved.nodes, headings), resolved, file.as_posix())
 

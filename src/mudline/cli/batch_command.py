@@ -38,7 +38,6 @@ from mudline.model.results.cases import CASES, CaseSummary, worst_first, write_p
 from mudline.tools.running.executors import check_address
 from mudline.tools.running.remembered import Memory, state
 
-_FORMS = ("csv", "json", "npz", "parquet")
 _MEMORY = ".mudline-batch"
 """File in the result folder that records the inputs of each result."""
 _REMEMBERED = TypeAdapter(Done)
@@ -59,7 +58,7 @@ _REMEMBERED = TypeAdapter(Done)
 )
 @options.output_option(
     "--form",
-    type=click.Choice(_FORMS),
+    type=click.Choice(["csv", "json", "npz", "parquet"]),
     help="Write result files in this form (default: Parquet, or NPZ where pyarrow is not installed).",
 )
 @options.output_format("text", "json", "csv")

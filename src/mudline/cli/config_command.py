@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,6 @@ from mudline.checks.configuration import (
     KEYS,
     NO_OUTSIDE,
     TABLES,
-    Configuration,
     Configured,
 )
 from mudline.checks.output import visible
@@ -37,7 +35,14 @@ def command(*, path: str, config: str | None, isolated: bool, output_format: str
     from mudline.checks.registry import code_fault  # noqa: PLC0415 - of the commands, lint alone needs all rules
 
     inside = str(Path(path) / "-") if os.path.isdir(path) else path  # noqa: PTH112 - Path raises for a long name
-    rows = list(_rows(Configured(config, isolated, code_fault).of(inside)))
+    configuration = Configured(config, isolated, code_fault).of(inside)
+    rows: list[tuple[str, Any, str]] = []
+    for key in KEYS:
+        if key in configuration.values:
+            file, line = configuration.origins[key]
+            rows.append((key, configuration.values[key], f"{file.as_posix()}:{line}"))
+        else:
+            rows.append((key, _DEFAULTS.get(key, {} if key in TABLES else []), "default"))
     if output_format == "json":
         emit([json.dumps([dict(zip(("key", "value", "from"), row, strict=True)) for row in rows], indent=1), "\n"])
     else:
@@ -46,13 +51,3 @@ def command(*, path: str, config: str | None, isolated: bool, output_format: str
             for key, value, origin in rows
         )
     return DONE
-
-
-def _rows(configuration: Configuration) -> Iterator[tuple[str, Any, str]]:
-    """Yield key, value and origin of every key."""
-    for key in KEYS:
-        if key in configuration.values:
-            path, line = configuration.origins[key]
-            yield key, configuration.values[key], f"{path.as_posix()}:{line}"
-        else:
-            yield key, _DEFAULTS.get(key, {} if key in TABLES else []), "default"

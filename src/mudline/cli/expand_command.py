@@ -12,7 +12,7 @@ from mudline.basics.short_repr import counted
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import View, emit, make_folder, notify, write_bytes, write_text
-from mudline.editing.variations.files import MANIFEST, ExpansionPlan, conflicts, lacking, manifest_text
+from mudline.editing.variations.files import MANIFEST, conflicts, lacking, manifest_text
 from mudline.editing.variations.planning import plan
 
 _COLUMNS = (
@@ -48,7 +48,16 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
     if output is not None and not dry_run:
         if blocked:
             raise click.ClickException("nothing is written")
-        _write(planned, Path(output), view)
+        folder = Path(output)
+        for each in planned.decks:
+            path = folder / each.path
+            make_folder(path.parent)
+            write_bytes(path, planned.content(each))
+            if view.verbose:
+                notify(path.as_posix())
+        make_folder(folder)
+        write_text(folder / MANIFEST, [manifest_text(planned.source, planned.decks)])
+        view.note(f"{planned.source}: {counted(len(planned.decks), 'deck')} -> {folder.as_posix()}")
     if output_format == "json":
         emit([manifest_text(planned.source, planned.decks)])
     elif dry_run:
@@ -63,15 +72,3 @@ def _notify_some(messages: list[str]) -> None:
         notify(message)
     if len(messages) > SHOWN_ROWS:
         notify(f"and {len(messages) - SHOWN_ROWS} more of the same")
-
-
-def _write(planned: ExpansionPlan, folder: Path, view: View) -> None:
-    for deck in planned.decks:
-        path = folder / deck.path
-        make_folder(path.parent)
-        write_bytes(path, planned.content(deck))
-        if view.verbose:
-            notify(path.as_posix())
-    make_folder(folder)
-    write_text(folder / MANIFEST, [manifest_text(planned.source, planned.decks)])
-    view.note(f"{planned.source}: {counted(len(planned.decks), 'deck')} -> {folder.as_posix()}")

@@ -17,7 +17,7 @@ from mudline.checks.configuration import CallerSettings, ConfigurationError, Con
 from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
-from mudline.cli.lint_report import LintOptions, LintReport, complete, outputs
+from mudline.cli.lint_report import LintOptions, LintReport, outputs
 from mudline.cli.lint_run import checked_settings, lint_files
 from mudline.cli.streams import View, notify
 from mudline.language.deck.searching import is_deck
@@ -50,7 +50,7 @@ _rules = partial(
     "forms",
     multiple=True,
     metavar="FORM[=FILE]",
-    shell_complete=complete,
+    shell_complete=options.completing(lambda: (TEXT, *form_names())),
     help=f"Print findings in this format: {', '.join([f'{TEXT} (default)', *form_names()])}. "
     "With =FILE, also write a file. Repeatable.",
 )

@@ -22,11 +22,6 @@ from mudline.language.diagnostics import Coverage, Diagnostic, Severity, Span
 from mudline.language.syntax.source import Source
 
 
-def complete(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
-    """Return completions of the shell after `--output-format`."""
-    return [name for name in (TEXT, *form_names()) if name.startswith(incomplete)]
-
-
 def outputs(given: Sequence[str]) -> tuple[str, list[tuple[str, Path]]]:
     """Return the format of standard output, and formats and files, from values of `--output-format`.
 

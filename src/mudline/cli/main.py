@@ -84,12 +84,8 @@ def mudline() -> None:
     """Read, check and convert the keyword decks of riser and pipeline analysis, and evaluate their seabed contact."""
 
 
-def _complete(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
-    return [name for name in COMMANDS if name.startswith(incomplete)]
-
-
 @options.command("help")
-@click.argument("name", metavar="[COMMAND]", required=False, shell_complete=_complete)
+@click.argument("name", metavar="[COMMAND]", required=False, shell_complete=options.completing(lambda: COMMANDS))
 @options.common
 @click.pass_context
 def _help(context: click.Context, /, *, name: str | None) -> int:

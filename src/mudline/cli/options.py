@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from functools import partial, wraps
 from typing import Any
 
@@ -127,6 +127,12 @@ encoding = input_option(
     callback=_encoding,
     help="Read and write keyword decks in this encoding, such as cp437.",
 )
+
+
+def completing(names: Callable[[], Iterable[str]]) -> Callable[..., list[str]]:
+    """Return the completion of a word by the names that begin as it does."""
+    return lambda _context, _parameter, start: [name for name in names() if name.startswith(start)]
+
 
 complete_files = click.Path().shell_complete
 """Completion of paths by a shell; paths are not checked here, so that messages are the same everywhere."""

@@ -131,17 +131,17 @@ def reason(error: OSError) -> str:
 # ----------------------------------------------------------------------------------------------------------- files
 
 
+class UnwrittenError(click.ClickException):
+    """Failure to write a file; its previous content remains."""
+
+
 @contextmanager
-def naming(path: object, fault: str = "") -> Iterator[None]:
+def naming(path: object, fault: str = "", kind: type[click.ClickException] = click.ClickException) -> Iterator[None]:
     """End the command with a path, the fault and its reason if the block cannot read or write something."""
     try:
         yield
     except OSError as error:
-        raise click.ClickException(f"{path}: {fault}{reason(error)}") from error
-
-
-class UnwrittenError(click.ClickException):
-    """Failure to write a file; its previous content remains."""
+        raise kind(f"{path}: {fault}{reason(error)}") from error
 
 
 @contextmanager
@@ -153,11 +153,8 @@ def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
     from mudline.basics.files import replacement  # noqa: PLC0415 - help and faults of usage write no file
 
     claim(path)
-    try:
-        with replacement(path, synced=synced) as stream:
-            yield stream
-    except OSError as error:
-        raise UnwrittenError(f"{path}: cannot be written: {reason(error)}") from error
+    with naming(path, "cannot be written: ", UnwrittenError), replacement(path, synced=synced) as stream:
+        yield stream
 
 
 def make_folder(path: Path) -> None:

@@ -35,14 +35,13 @@ _COLUMNS = (
     number("ele-\nments", "elements"),
     text("file", "file", whole=True),
 )
-_FAIL_ON = ("error", "warning", "unread")
 
 
 @options.command("validate")
 @options.output_format("text", "json", "csv")
 @options.output_option(
     "--fail-on",
-    type=click.Choice(_FAIL_ON),
+    type=click.Choice(["error", "warning", "unread"]),
     default="error",
     help="Exit with 1 for decks with errors (default), also for decks with warnings, or also for decks that are not "
     "read completely.",
