@@ -22,7 +22,7 @@ from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, Numbered
-from mudline.model.scene.references import KEYWORD, check_nodes, shows_nodes
+from mudline.model.scene.references import KEYWORD, check_numbers, shows_nodes
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
             _check_range(context, nodes, values, place)
             ends = enumerate((values.start, values.end))
             named += [(end, place.inside(at)) for at, end in ends if isinstance(end, Label)]
-    check_nodes(context, nodes, named)
+    check_numbers(context, Names.NODE, nodes, named)
 
 
 def _conditions(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where, Any, FixedValues | None]]:

@@ -18,7 +18,7 @@ from mudline.model.scene import assignments
 from mudline.model.scene.numbering import Indices, Mask
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
 from mudline.model.scene.seabed import SeabedKind, made_seabed
-from mudline.model.scene.weights import empty_weight, operating_weight
+from mudline.model.scene.weights import operating_weight
 
 if TYPE_CHECKING:
     from mudline.model.contact.seabed import Seabed
@@ -64,7 +64,7 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
             tension=tension,
             seabed=_seabed(scene),
             weight=operating_weight(scene),
-            empty_weight=empty_weight(scene),
+            empty_weight=operating_weight(scene, filled=False),
             left_out=left_out,
             names=scene,
         )

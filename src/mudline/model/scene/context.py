@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
@@ -47,14 +47,13 @@ _NUMBERED = {"NODE": "node", "ELEMENT": "element"}
 """Keywords whose objects have numbers."""
 
 
-@dataclass(slots=True, eq=False)
-class _Uses:
+class _Uses(NamedTuple):
     """Uses of objects of a kind that the deck does not show: code, number and place of the first, count, and effect."""
 
     code: Code
     first: int | None
     where: Where
-    count: int = 0
+    times: int = 0
     blocks: Blocks = Blocks.NEVER
 
 
@@ -191,9 +190,9 @@ class Context:
         unread = (name for name in self.external_definers if not (is_read_definer(name) or makes_labels(name)))
         definer = next((name for name in unread if self._definition_by(name, keyword, number)), "")
         if keyword in _NUMBERED and definer:
-            use = self._out_of_sight.setdefault((definer, keyword), _Uses(code, number, where))
-            use.count += 1
-            use.blocks = blocks or use.blocks
+            use = self._out_of_sight.get((definer, keyword), _Uses(code, number, where))
+            use = use._replace(times=use.times + 1, blocks=blocks or use.blocks)
+            self._out_of_sight[definer, keyword] = use
         elif self._reported.get(code.code, 0) <= MOST_REPORTED:
             self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
 
@@ -238,7 +237,7 @@ class Context:
             thing = _NUMBERED[keyword]
             first = "" if use.first is None else f" (first: {thing} {use.first})"
             message = (
-                f"*{definer} may define {thing}s that this deck does not show: {counted(use.count, 'use')} of such "
+                f"*{definer} may define {thing}s that this deck does not show: {counted(use.times, 'use')} of such "
                 f"{thing}s{first} cannot be checked"
             )
             own = self.written.alone.every_block()

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from mudline.basics.limits import LISTED
 from mudline.language.codes import DAT001
 from mudline.language.diagnostics import DeckError, Diagnostic, Span
-from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import shown
 from mudline.language.syntax.rows import read_number, read_rows
+from mudline.model.scene import numbering
 from mudline.model.scene.numbering import Floats, Ids
 
 SEPARATORS = (",", ";", "\t")
@@ -98,12 +98,11 @@ def data_error(file: str, message: str, line: int = 1, column: int = 1) -> DeckE
 
 def whole_numbers(name: str, column: Floats, fault: Callable[[int, str], DeckError]) -> Ids:
     """Return a column as whole numbers; raises the `fault` of a row and a message for other values, or above 2^53."""
-    with np.errstate(invalid="ignore"):
-        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST_WHOLE)
-    if not good.all():
-        row = int(np.argmin(good))
+    ids, known = numbering.whole_numbers(column)
+    if not known.all():
+        row = int(np.argmin(known))
         raise fault(row, f"{name}: {float(column[row])!r} is not a whole number up to 2^53")
-    return column.astype(np.int64)
+    return ids
 
 
 def read_csv(path: Path, needed: Sequence[str], known: Sequence[str] | None) -> CsvTable:

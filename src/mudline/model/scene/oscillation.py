@@ -175,15 +175,20 @@ def _of_group(
         weight = np.where(carried.leading(stiffness)[group], of_nodes[ends] / carried.mass[ends], np.nan)
         if np.isnan(weight).all():
             weight = of_nodes[ends] / carried.mass[ends]
+    found = _fastest(kind, name, ends.ravel(), weight.ravel(), of_nodes, carried.mass)
+    yield from (contact._replace(where=where) for contact in found)
+
+
+def _fastest(
+    kind: str, name: str, nodes: Indices, weight: Floats, stiffness: Floats, mass: Floats
+) -> Iterator[Oscillation]:
+    """Yield the contact at the node with the largest weight, if it is known and the contact oscillates there."""
     if not np.isnan(weight).all():
-        node = int(ends.ravel()[np.nanargmax(weight)])
-        yield from _known(Oscillation(kind, name, node, float(of_nodes[node]), float(carried.mass[node]), where))
-
-
-def _known(contact: Oscillation) -> Iterator[Oscillation]:
-    """Yield a contact, if it oscillates."""
-    if contact.mass > 0.0 and math.isfinite(contact.mass) and math.isfinite(contact.stiffness) and contact.omega > 0.0:
-        yield contact
+        node = int(nodes[np.nanargmax(weight)])
+        contact = Oscillation(kind, name, node, float(stiffness[node]), float(mass[node]), None)
+        known = contact.mass > 0.0 and math.isfinite(contact.mass) and math.isfinite(contact.stiffness)
+        if known and contact.omega > 0.0:
+            yield contact
 
 
 def _of_nodes(scene: ResolvedDeck, stiffness: Floats, carried: _Carried) -> Iterator[Oscillation]:
@@ -202,9 +207,7 @@ def _of_node(kind: str, name: str, nodes: Indices, stiffness: Floats, carried: _
     with np.errstate(all="ignore"):
         per_length = stiffness / carried.length
         weight = per_length[nodes] / carried.mass[nodes]
-    if not np.isnan(weight).all():
-        node = int(nodes[np.nanargmax(weight)])
-        yield from _known(Oscillation(kind, name, node, float(per_length[node]), float(carried.mass[node]), None))
+    yield from _fastest(kind, name, nodes, weight, per_length, carried.mass)
 
 
 def _of_springs(

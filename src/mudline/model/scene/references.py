@@ -116,9 +116,9 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
     for where, _, block in context.deck.every_block():
         if type(block) is Opaque or not _names_idents(type(block)):
             continue
-        for what, check in ((Names.NODE, check_nodes), (Names.ELEMENT, _check_elements)):
-            named = [(ident, where._replace(path=path)) for path, ident in idents_given(block, what)]
-            check(context, nodes if what is Names.NODE else elements, named)
+        for kind, known in ((Names.NODE, nodes), (Names.ELEMENT, elements)):
+            named = [(ident, where._replace(path=path)) for path, ident in idents_given(block, kind)]
+            check_numbers(context, kind, known, named)
 
 
 @cache
@@ -145,40 +145,27 @@ KEYWORD = "BOUNDARY"
 """Keyword with its own check: some nodes of its ranges may be undefined."""
 
 
-def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
-    """Report undefined numbers of elements, and in a deck with `*LABEL` undefined labels."""
-    labelled = "LABEL" in context.deck.keywords() and not context.external_definers
-    for ident, where in named if labelled else ():
-        if isinstance(ident, Label):
-            context.report_label(REF005, ident, where, "ELEMENT", blocks=Blocks.NEVER)
-    numbers = [(ident, where) for ident, where in named if isinstance(ident, int) and not isinstance(ident, bool)]
-    if not numbers or not (len(elements) or "ELEMENT" in context.deck.keywords()):
-        return
-    indices = elements.indices(np.array([number for number, _ in numbers], dtype=np.int64))
-    for index in np.flatnonzero(indices < 0)[: MOST_REPORTED + 1].tolist():
+def check_numbers(context: Context, kind: Names, known: Numbered, named: Sequence[tuple[object, Where]]) -> None:
+    """Report undefined nodes or elements, numbers or labels; any other value could not be read and is skipped.
+
+    Labels of elements are checked only in a deck with `*LABEL`. Undefined elements do not keep a deck from being
+    evaluated.
+    """
+    is_node, keyword = kind is Names.NODE, kind.name
+    code, blocks = (REF006, None) if is_node else (REF005, Blocks.NEVER)
+    shows = len(known) > 0 or keyword in context.deck.keywords()
+    labels = "LABEL" in context.deck.keywords() and not context.external_definers
+    if is_node:
+        labels = shows or bool(context.external_definers)
+    for ident, where in named if labels else ():
+        if isinstance(ident, Label) and not (is_node and context.is_guessed_label(where)):
+            context.report_label(code, ident, where, keyword, blocks=blocks)
+    numbers = [(ident, where) for ident, where in named if isinstance(ident, int)]
+    missing = np.flatnonzero(known.indices(np.array([number for number, _ in numbers], dtype=np.int64)) < 0)
+    for index in missing[: MOST_REPORTED + 1].tolist() if shows else ():
         number, where = numbers[index]
-        message = f"element {number} is not defined: define it in *ELEMENT, or correct the number"
-        context.report_missing(REF005, message, where, "ELEMENT", number, blocks=Blocks.NEVER)
-
-
-def check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object, Where]]) -> None:
-    """Report undefined nodes, numbers or labels; any other value could not be read and is skipped."""
-    if not named:
-        return
-    numbers: list[int] = []
-    places: list[Where] = []
-    shown_nodes = shows_nodes(context, nodes)
-    for node, where in named:
-        if isinstance(node, Label):
-            if (shown_nodes or context.external_definers) and not context.is_guessed_label(where):
-                context.report_label(REF006, node, where, "NODE")
-        elif isinstance(node, int):
-            numbers.append(node)
-            places.append(where)
-    missing = np.flatnonzero(nodes.indices(np.array(numbers, dtype=np.int64)) < 0)
-    for index in missing[: MOST_REPORTED + 1].tolist() if shown_nodes else ():
-        message = f"node {numbers[index]} is not defined: define it in *NODE, or correct the number"
-        context.report_missing(REF006, message, places[index], "NODE", numbers[index])
+        message = f"{keyword.lower()} {number} is not defined: define it in *{keyword}, or correct the number"
+        context.report_missing(code, message, where, keyword, number, blocks=blocks)
 
 
 def shows_nodes(context: Context, nodes: Numbered) -> bool:
