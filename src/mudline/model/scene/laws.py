@@ -246,9 +246,7 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
 
 def present(covered: Indices) -> list[int]:
     """Return the indices that occur, without -1, in ascending order."""
-    one_for_all = len(covered) and covered.strides == (0,)
-    indices = covered[:1] if one_for_all else covered
-    return np.bincount(indices[indices >= 0]).nonzero()[0].tolist()
+    return np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
 
 
 def _resistance(entry: object, friction: object, suction: object, prefix: str = "") -> ResistanceValues:

@@ -120,25 +120,17 @@ def _excess_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], st
     from mudline.model.scene.assignments import resistance_diagram  # noqa: PLC0415 - as above
 
     if entry.model == "WALL":
-        for name, present in (
-            ("level", entry.level == "LOWERED"),
-            ("residual", entry.residual),
-            ("smoothing", entry.smoothing),
-        ):
-            if present:
-                yield (
-                    (name,),
-                    f"MODEL=WALL has sloped walls, which {name.upper()}= does not go with: remove one of the two",
-                )
+        given = {"level": entry.level == "LOWERED", "residual": entry.residual, "smoothing": entry.smoothing}
+        for name in (name for name, value in given.items() if value):
+            message = f"MODEL=WALL has sloped walls, which {name.upper()}= does not go with: remove one of the two"
+            yield (name,), message
         return
     middle = 0.25 * (number(entry.geometry, "bottom_width") + number(entry.geometry, "upper_width"))
     if entry.residual is not None and entry.peak == "TABLE":
         yield ("residual",), "a table has a residual of its own: remove RESIDUAL=, or add its row"
     elif number(entry.residual, "displacement") <= middle:
-        yield (
-            ("residual",),
-            f"the residual is reached no later than the peak, at {middle:g}: give a larger displacement",
-        )
+        message = f"the residual is reached no later than the peak, at {middle:g}: give a larger displacement"
+        yield ("residual",), message
     elif number(entry, "smoothing", 0.0) > max(0.5 * (side := shortest_side(resistance_diagram(entry))), 0.0):
         yield ("smoothing",), f"SMOOTHING= is above half of the shortest side of the resistance, {side:g}: give less"
 
