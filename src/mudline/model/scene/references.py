@@ -74,8 +74,7 @@ def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterato
 def _doubt(context: Context, definers: Collection[str]) -> str:
     """Return in words the unread line that may define an object; "" if there is none."""
     for where, _, block in context.deck.every_block():
-        unsure = block.keyword in definers and (isinstance(block, Opaque) or not is_read(block))
-        if unsure or (block.keyword in definers and context.deck.lost(where)):
+        if block.keyword in definers and (type(block) is Opaque or not is_read(block) or context.deck.lost(where)):
             return f"; a line of *{block.keyword} that was not read may define it"
     words = (context.possible_definition(keyword) for keyword in definers)
     return next((f"; {definition}" for definition in words if definition), "")

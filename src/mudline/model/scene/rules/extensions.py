@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ from mudline.language.diagnostics import Blocks, Code, Problem, Severity
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.laws import Extension, rule_of_extension
-from mudline.model.scene.numbering import Mask
+from mudline.model.scene.numbering import Mask, marked
 from mudline.model.scene.rules.fields import lacks_diameter
 
 if TYPE_CHECKING:
@@ -119,7 +119,9 @@ def suction_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Prob
     Finds: 19:6
     """
     springs = (scene.resistance.column("suction") > 0.0) & (scene.law != LawKind.RIGID)
-    listed, extrapolated = (_on_curves(scene, pulls) for pulls in (_lists_pull, _may_pull))
+    curves = [entry for entry in scene.laws.curves if entry.curve is not None]
+    index = scene.law_arrays().curve_index
+    listed, extrapolated = (marked(map(pulls, curves), index) for pulls in (_lists_pull, _may_pull))
     for _, where, held in extension.blocks():
         place = where.inside("set")
         words = "SUCTION= of the seabed too: remove one of the two"
@@ -136,14 +138,6 @@ def suction_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Prob
         )
         problem = Problem(EXT006, words, None, Severity.WARNING, place)
         yield from of_elements(scene, held & extrapolated & ~listed, problem)
-
-
-def _on_curves(scene: ResolvedDeck, pulls: Callable[[SceneCurve], bool]) -> Mask:
-    """Return a mask (m,) of the elements whose curve fulfils a condition."""
-    flags = [entry.curve is not None and pulls(entry) for entry in scene.laws.curves]
-    of_law = [set_law.curve >= 0 and flags[set_law.curve] for set_law in scene.laws.set_laws]
-    mask: Mask = np.array([*of_law, False])[scene.laws.of_element] & (scene.law == LawKind.CURVE)
-    return mask
 
 
 def _lists_pull(entry: SceneCurve) -> bool:

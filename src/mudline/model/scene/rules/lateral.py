@@ -18,7 +18,6 @@ from mudline.model.scene.rules.seabed import extends_rigid
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_lateral import FrictionSet, TrenchSet
-    from mudline.model.contact.input import LawAssignment
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -75,7 +74,9 @@ def bad_trench(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
 
 def _of_friction(scene: ResolvedDeck, message: str, where: Where) -> Problem:
     """Return a problem of the friction of elements: a warning if the deck may not show all of their friction."""
-    if _uncertain(scene):
+    friction = scene.extensions.get("SEABED FRICTION")
+    hidden = friction is not None and any(held is None or held.open for held in friction.sets)
+    if hidden or scene.laws.uncertain or scene.context.restart:
         return Problem(EXT003, message + _HIDDEN, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
     return Problem(EXT003, message, where=where)
 
@@ -142,9 +143,14 @@ def _without_spring(scene: ResolvedDeck, trenches: Extension) -> tuple[Mask, Mas
         return nothing, nothing
     from mudline.model.scene.contact_input import friction_of  # noqa: PLC0415 - a deck without trenches does without it
 
-    friction = friction_of(scene)
-    bare: Mask = (trenches.of_element >= 0) & ~_sprung(scene, friction)
-    return bare, _self_locking(scene, trenches, friction)
+    friction, count = friction_of(scene), len(scene.node_ids)
+    sprung, coefficient = np.zeros(count, dtype=np.bool_), np.zeros(count)
+    if friction is not None:
+        coefficient[friction.rows] = friction.parameters["lateral_coefficient"]
+        stiffness = np.asarray(friction.parameters["lateral_stiffness"])
+        sprung[friction.rows] = ~np.isnan(stiffness) | (coefficient[friction.rows] > 0.0)
+    bare: Mask = (trenches.of_element >= 0) & ~sprung[scene.element_nodes].all(axis=1)
+    return bare, _self_locking(scene, trenches, coefficient)
 
 
 def _unread(scene: ResolvedDeck) -> bool:
@@ -156,32 +162,13 @@ def _unread(scene: ResolvedDeck) -> bool:
     return any(is_partly_unknown(scene.context.as_written(place)) for place in places)
 
 
-def _uncertain(scene: ResolvedDeck) -> bool:
-    """Return True if some friction may come from lines, sets or a deck that this deck does not show."""
-    friction = scene.extensions.get("SEABED FRICTION")
-    if friction is not None and any(held is None or held.open for held in friction.sets):
-        return True
-    return scene.laws.uncertain or scene.context.restart
+def _self_locking(scene: ResolvedDeck, trenches: Extension, coefficient: Floats) -> Mask:
+    """Return a mask (m,) of the elements in a trench with sloped walls where a node has mu2 tan(theta) >= 1.
 
-
-def _sprung(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
-    """Return a mask (m,) of the elements whose two nodes have a lateral friction spring."""
-    sprung = np.zeros(len(scene.node_ids), dtype=np.bool_)
-    if friction is not None:
-        stiffness = np.asarray(friction.parameters["lateral_stiffness"])
-        coefficient = np.asarray(friction.parameters["lateral_coefficient"])
-        sprung[friction.rows] = ~np.isnan(stiffness) | (coefficient > 0.0)
-    both_ends: Mask = np.logical_and(*sprung[scene.element_nodes].T)
-    return both_ends
-
-
-def _self_locking(scene: ResolvedDeck, trenches: Extension, friction: LawAssignment | None) -> Mask:
-    """Return a mask (m,) of the elements in a trench with sloped walls where a node has mu2 tan(theta) >= 1."""
+    `coefficient` (n,) is mu2 of each node.
+    """
     from mudline.model.contact.laws.trench import wall_coefficient  # noqa: PLC0415 - as above
 
-    coefficient: Floats = np.zeros(len(scene.node_ids))
-    if friction is not None:
-        coefficient[friction.rows] = np.asarray(friction.parameters["lateral_coefficient"])
     depth, bottom, upper = (trenches.values(trenches.of_element, "geometry", name) for name in _SIZES)
     locking: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for end in scene.element_nodes.T:

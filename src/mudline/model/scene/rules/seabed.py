@@ -81,8 +81,6 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 7:7
     """
-    if len(scene.laws.types) < 2:
-        return
     places = sorted((where, name) for name, type_places in scene.laws.types.items() for where in type_places)
     where, name = next(((where, name) for where, name in places if name != places[0][1]), (Where(), ""))
     if not name:
@@ -359,13 +357,11 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     deck = scene.deck
     planes = [where for where, _ in scene.context.blocks("SEABED PLANES")]
-    if not planes:
-        return
     others = [where for where, _ in scene.context.blocks("SEABED PROFILE")]
     for where, surface in scene.context.surfaces:
         if surface.slope is not None or surface.profile is not None:
             others.append(where)
-    if others:
+    if planes and others:
         places = [place for place in (planes[0], min(others)) if place.section < len(deck.own_sections)]
         message = "the seabed is given by *SEABED PLANES and by a profile or slope too: remove one of them"
         yield Problem(EXT002, message, where=max(places, default=planes[0]))
