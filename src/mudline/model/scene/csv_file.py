@@ -221,10 +221,8 @@ def csv_rows(file: str, text: str, separator: str = ",") -> Iterator[tuple[list[
 def finite(file: str, name: str, array: NDArray[np.floating]) -> Floats:
     """Return an array as float64, one-dimensional; raises DeckError for a number that is not finite."""
     values = array.astype(np.float64).ravel()
-    if not np.isfinite(values).all():
-        raise data_error(
-            file, f"{name} holds {float(values[np.argmin(np.isfinite(values))])!r}, expected finite numbers"
-        )
+    for value in values[~np.isfinite(values)][:1].tolist():
+        raise data_error(file, f"{name} holds {value!r}, expected finite numbers")
     return values
 
 

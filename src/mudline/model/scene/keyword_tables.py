@@ -255,13 +255,12 @@ def _systems(sheet: WorkbookSheet, cell: Cell, dimension: str, unit: str) -> lis
 
 @dataclass
 class _NamedRows:
-    """Rows that belong together: their name, its cell, and each row with its cells."""
+    """Rows that belong together: their name, its cell, each row with its line, and the first column of values."""
 
     sheet: WorkbookSheet
     name: str
     cell: tuple[int, int]
-    lines: list[str] = field(default_factory=list)
-    rows: list[int] = field(default_factory=list)
+    lines: list[tuple[int, str]] = field(default_factory=list)
     first: int = 1
 
 
@@ -287,8 +286,7 @@ def _entries(sheet: WorkbookSheet, head: _Head) -> list[_NamedRows]:
             name = _name(sheet, head.places[named], named, cells_by_column, row, name)
         place = row, head.places[named] if named else first
         entry = entries.setdefault((name or "").casefold(), _NamedRows(sheet, name or "", place, first=first))
-        entry.lines.append(_line(sheet, head, cells_by_column, row))
-        entry.rows.append(row)
+        entry.lines.append((row, _line(sheet, head, cells_by_column, row)))
     return list(entries.values())
 
 
@@ -386,7 +384,7 @@ def _deck(tables: Mapping[TableForm, Sequence[_NamedRows]], file: str, units: st
         for entry in entries:
             if form.name:
                 text.add(f"{form.name.spec.key}={entry.name}", entry, entry.cell)
-            for line, row in zip(entry.lines, entry.rows, strict=True):
+            for row, line in entry.lines:
                 text.add(line, entry, (row, entry.first))
     deck = read_source(Source(file, "\n".join([*text.lines, ""])), units=units)
     deck.source = PurePath(file).name
@@ -415,5 +413,5 @@ def _check(deck: Deck, tables: Mapping[TableForm, Sequence[_NamedRows]]) -> None
                 try:
                     ForceCurve(points)
                 except CurveError as error:
-                    row = entry.rows[error.index] if 0 <= error.index < len(entry.rows) else entry.cell[0]
+                    row = entry.lines[error.index][0] if 0 <= error.index < len(entry.lines) else entry.cell[0]
                     raise entry.sheet.fault(row, entry.first, str(error)) from error

@@ -124,18 +124,16 @@ def _surfaces(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
         yield SetLaw(LawKind.RIGID, sets.everything, where, "legacy")
     for where, block in context.blocks("ELASTIC SURFACE"):
         laws.types.setdefault("ELASTIC", []).append(where)
-        place = where.inside("properties")
+        place = where.inside("properties", "stiffness")
         stiffness = getattr(cast("ElasticSurface", block).properties, "stiffness", None)
-        field_ = place.inside("stiffness")
         if stiffness is not None:
             value = float(cast("float", stiffness))
-            yield SetLaw(LawKind.LINEAR, sets.everything, field_, "legacy", value, unknown=not value >= 0)
+            yield SetLaw(LawKind.LINEAR, sets.everything, place, "legacy", value, unknown=not value >= 0)
 
 
 def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[SetLaw]:
     for index, curve in enumerate(laws.curves[first:], first):
-        set_ = sets.find(curve.name) if curve.name else None
-        holder = set_ or _unknown(curve.name)
+        holder = (sets.find(curve.name) if curve.name else None) or _unknown(curve.name)
         yield SetLaw(LawKind.CURVE, holder, curve.where, "legacy", curve=index, unknown=not curve.usable)
 
 

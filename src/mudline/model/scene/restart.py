@@ -82,12 +82,10 @@ def decks_before(deck: Deck) -> list[Path]:
 
 def _names(deck: Deck) -> Iterator[tuple[Where, str]]:
     """Yield every LAST=, with the values of parameters put in."""
-    blocks = [(where, cast("Restart", block)) for where, block in deck.blocks("RESTART", "LOAD CASE")]
-    parameters = Parameters(deck) if any("%" in (block.last or "") for _, block in blocks) else None
-    for where, block in blocks:
-        if block.last:
-            name = parameters.filled(block.last) if parameters else block.last
-            yield where.inside("last"), name
+    parameters = Parameters(deck)
+    for where, block in deck.blocks("RESTART", "LOAD CASE"):
+        if last := cast("Restart", block).last:
+            yield where.inside("last"), parameters.filled(last)
 
 
 def _follow(deck: Deck) -> _Bases:
