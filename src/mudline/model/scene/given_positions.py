@@ -11,7 +11,6 @@ from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted
 from mudline.language.codes.contact import RUN006, RUN007, RUN008
 from mudline.language.diagnostics import Code, Where
-from mudline.model.scene.deck_values import number
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
@@ -62,8 +61,7 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     if not used.size or not np.isfinite(used).all():
         return ""
     (low_x, _, low_z), (high_x, _, high_z) = used.min(axis=0), used.max(axis=0)
-    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
-    depth = number(oceans[-1], "depth") if oceans else np.nan
+    depth = scene.surroundings.depth
     rise = high_z - low_z
     near = NEAR * depth
     if abs(rise - depth) <= near and min(abs(low_z), abs(high_z)) <= near and high_x - low_x <= FLAT * depth:

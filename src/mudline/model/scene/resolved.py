@@ -31,13 +31,7 @@ from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
-from mudline.model.scene.sections import (
-    SectionTable,
-    Surroundings,
-    mass_per_length,
-    read_surroundings,
-    submerged_weight,
-)
+from mudline.model.scene.sections import SectionTable, Surroundings, read_surroundings
 from mudline.model.scene.sets import Sets
 
 if TYPE_CHECKING:
@@ -225,7 +219,7 @@ class ResolvedDeck:
     @cached_property
     def mass_per_length(self) -> Floats:
         """Mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
-        return mass_per_length(self.section_table)
+        return self.section_table.mass_per_length()
 
     @cached_property
     def submerged_weight(self) -> Floats:
@@ -236,7 +230,7 @@ class ResolvedDeck:
         around, land = self.surroundings, None
         if self.seabed.kind is not SeabedKind.FLAT:
             land = on_land(self.seabed, around.depth, self.coordinates, self.element_nodes)
-        return submerged_weight(self.section_table, around, land)
+        return self.section_table.submerged_weight(around, land)
 
     @cached_property
     def sets(self) -> ByName[Ids]:
