@@ -20,6 +20,7 @@ from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.fields import Setting
+from mudline.language.keywords.format import unit_text
 from mudline.language.keywords.model import Block, FieldSpec, Record, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation, Kind, Names
@@ -125,8 +126,6 @@ def plain(text: str) -> str:
 
 
 _HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(]\s*(?P<unit>[^\[(]*?)\s*[\])])?\s*", re.DOTALL)
-_UNITS = {"metric": ("N", "m", "kg", "s"), "imperial": ("lbf", "ft", "slug", "s")}
-"""Units of force, length, mass and time in a unit system."""
 
 
 class TableDeck(NamedTuple):
@@ -240,8 +239,8 @@ def _systems(sheet: WorkbookSheet, cell: Cell, dimension: str, unit: str) -> lis
     """Return the unit system of a unit in a heading, if it shows one. Raises DeckError for a unit of no system."""
     if not unit or dimension in {"", "-", "deg"}:
         return []
-    units = {system: dict(zip("FLMT", names, strict=True)) for system, names in _UNITS.items()}
-    names = {system: "".join(own.get(letter, letter) for letter in dimension) for system, own in units.items()}
+    texts = {system: unit_text(dimension.replace(" ", ""), system) for system in ("metric", "imperial")}
+    names = {system: text.replace(" ", "") for system, text in texts.items()}
     written = unit.replace("^", "").replace("²", "2").replace("³", "3").replace(" ", "")
     fitting = [system for system, name in names.items() if name == written]
     if not fitting:
