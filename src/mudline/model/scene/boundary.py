@@ -136,8 +136,7 @@ def freedom_and_step(values: FixedValues) -> tuple[int, Any]:
 
 def _is_no_freedom(freedom: object) -> bool:
     """Return True if a value is not a degree of freedom; an unreadable value may be one. Equations give 6.0 for 6."""
-    known = isinstance(freedom, int | float) and not math.isnan(freedom)
-    return known and freedom not in FREEDOMS
+    return isinstance(freedom, int | float) and not math.isnan(freedom) and freedom not in FREEDOMS
 
 
 def nodes_on_vessels(scene: ResolvedDeck, deck: EvaluatedDeck) -> Iterator[tuple[int, frozenset[int], str]]:

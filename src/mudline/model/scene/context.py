@@ -138,8 +138,7 @@ class Context:
             elif is_read(block):
                 continue
             elif isinstance(deck.origin, TextOrigin):
-                kept = deck.origin.kept_lines(at.section, at.block)
-                lines = ((("unread", n), line) for n, line in enumerate(kept))
+                lines = ((("unread", n), line) for n, line in enumerate(deck.origin.kept_lines(at.section, at.block)))
             else:
                 lines = kept_places(block)
             unread += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
@@ -180,8 +179,7 @@ class Context:
         becomes equal to it by one edit.
         """
         if isinstance(lacks, int):
-            misread = self._misread.get(keyword, ())
-            places = [at for at, written in misread if edits(written, str(lacks), 1) <= 1]
+            places = [at for at, written in self._misread.get(keyword, ()) if edits(written, str(lacks), 1) <= 1]
             for at in places:
                 self.excused.setdefault(at, set()).add(lacks)
             if places:

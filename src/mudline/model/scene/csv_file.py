@@ -148,8 +148,7 @@ def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str] | 
 
     If `known` is None, any name may be there.
     """
-    row = next(csv_rows(file, text), ([], 1))[0]
-    names = [name.strip().lower() for name in row]
+    names = [name.strip().lower() for name in next(csv_rows(file, text), ([], 1))[0]]
     expected = ",".join(known or needed)
     if missing := [name for name in needed if name not in names]:
         raise data_error(file, f"the header lacks {', '.join(missing)}: expected {expected}")

@@ -171,10 +171,9 @@ def _below_surface(context: Context, curve: SceneCurve) -> SceneCurve:
 @cache
 def _has_curves(part: type[Part]) -> bool:
     """Return True if a part, or a record in it, has a table that is a curve."""
-    slots = record_schema(part).slots
     return any(
         (isinstance(slot.about, Rows) and slot.about.curve) or any(map(_has_curves, slot.record.values()))
-        for slot in slots
+        for slot in record_schema(part).slots
     )
 
 

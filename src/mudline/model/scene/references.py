@@ -309,8 +309,7 @@ class _Looking:
 
     def _keyless(self, where: Where, keyword: str, groups: list[FieldGroup]) -> None:
         """Report a line of a keyword that is read, if the key before its first value is missing."""
-        section = self.context.written.sections[where.section].name
-        block = catalogue.block_class(section, keyword)
+        block = catalogue.block_class(self.context.written.sections[where.section].name, keyword)
         first = groups[0].fields[0]
         alone = len(groups) > 1 and not groups[0].key and len(groups[0].fields) == 1 and first.text[:1].isalpha()
         if block is None or not alone:

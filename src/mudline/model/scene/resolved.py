@@ -278,8 +278,7 @@ class ResolvedDeck:
         for keyword, extension in reversed(self.extensions.items()):
             law, field = facts_of(keyword).gives_law
             if law:
-                asked = extension.asking(field) & soft
-                replaced_laws.append(Replaced(LawKind[law.upper()], field, extension, asked))
+                replaced_laws.append(Replaced(LawKind[law.upper()], field, extension, extension.asking(field) & soft))
         return replaced_laws
 
     @property

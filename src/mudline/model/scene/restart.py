@@ -171,8 +171,7 @@ def _read_base(path: Path, _version: tuple[int, ...]) -> Base | str:
 def candidate_names(deck: Deck, written: str) -> list[str]:
     """Return the possible names of a LAST=: as written, then with the deck's own suffix, then with other suffixes."""
     name = file_name(written)
-    own = PurePath(deck.file).suffix
-    return list(dict.fromkeys([name, *(name + suffix for suffix in (own, *SUFFIXES))]))
+    return list(dict.fromkeys([name, *(name + suffix for suffix in (PurePath(deck.file).suffix, *SUFFIXES))]))
 
 
 def find_deck(deck: Deck, written: str) -> Path | None:

@@ -68,8 +68,7 @@ def contents(scene: ResolvedDeck) -> list[PipeContents]:
 def contents_case(scene: ResolvedDeck) -> int | None:
     """Return the number of the load case whose contents the weights have; None if all load cases have the same."""
     filled = contents(scene)
-    differ = any((case.density != filled[-1].density).any() for case in filled)
-    return filled[-1].number if differ else None
+    return filled[-1].number if any((case.density != filled[-1].density).any() for case in filled) else None
 
 
 class Attached(NamedTuple):

@@ -53,8 +53,7 @@ def bad_cutoff(_: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     Finds: 9:2
     """
     for entry, where in zip(extension.entries, extension.places, strict=True):
-        cutoff = getattr(entry, "cutoff", None)
-        corners = [number(cutoff, name) for name in ("first", "second")]
+        corners = [number(getattr(entry, "cutoff", None), name) for name in ("first", "second")]
         known = [corner for corner in corners if np.isfinite(corner)]
         if any(not _LOWEST <= corner <= _HIGHEST for corner in known) or known != sorted(known):
             message = f"corners {', '.join(map(repr, known))}: they must be 0.01 <= first <= second <= 0.99"

@@ -54,10 +54,9 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types and not extends_rigid(scene) else ()
     for where, properties, type_ in blocks:
         for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
-            place = where.inside("sets", index)
             suction = entry.suction and entry.suction.stiffness
             for name, value in (("stiffness", entry.stiffness), ("lateral", entry.lateral), ("suction", suction)):
-                inner = place.inside(name)
+                inner = where.inside("sets", index, name)
                 if isinstance(value, str):
                     message = f"curve {shown(value)} on a rigid seabed: a force-embedment curve needs TYPE=ELASTIC"
                     yield Problem(SBD001, message, where=inner)
@@ -425,8 +424,7 @@ def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
             name = folded(cast("str | None", plane.name) or "")
             if name and name in known:
                 message = f"plane {shown(plane.name)} is already defined: choose another name, or remove one of the two"
-                place = where.inside("planes", index, "name")
-                yield Problem(EXT007, message, None, Severity.WARNING, place)
+                yield Problem(EXT007, message, None, Severity.WARNING, where.inside("planes", index, "name"))
             known.add(name)
 
 
