@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -14,14 +14,12 @@ from mudline.language.codes import RUN001
 from mudline.language.diagnostics import DeckError, Problem
 from mudline.model.contact import ElementError
 from mudline.model.contact.input import ContactInput, LawAssignment, LawKind
+from mudline.model.contact.seabed import Seabed
 from mudline.model.scene import assignments
 from mudline.model.scene.numbering import Indices, Mask
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.weights import operating_weight
-
-if TYPE_CHECKING:
-    from mudline.model.contact.seabed import Seabed
 
 _REFUSED = "; this cannot be evaluated"
 

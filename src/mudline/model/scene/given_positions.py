@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,13 +11,11 @@ from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted
 from mudline.language.codes.contact import RUN006, RUN007, RUN008
 from mudline.language.diagnostics import Code, Where
+from mudline.model.contact.arrays import Positions
+from mudline.model.contact.input import ContactInput
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-
-if TYPE_CHECKING:
-    from mudline.model.contact.arrays import Positions
-    from mudline.model.contact.input import ContactInput
 
 FLAT = 0.01
 """Share of the water depth by which the X of nodes may differ in a line that is upright along Z."""

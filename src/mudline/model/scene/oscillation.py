@@ -15,12 +15,11 @@ import numpy as np
 
 from mudline.basics.quantities import time_unit, unit_names
 from mudline.language.diagnostics import Where
-from mudline.model.contact.input import LawKind
+from mudline.model.contact.input import ContactInput
 from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, summed
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
-    from mudline.model.contact.input import ContactInput
     from mudline.model.contact.stiffest import Stiffest
 
 _RISES = np.linspace(0.02, 1.0, 50)
@@ -278,11 +277,8 @@ def _place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
     law = scene.set_law(element)
     if law is None:
         return None
-    if law.kind is not LawKind.CURVE or law.curve < 0:
-        return law.where
-    entry = scene.laws.curves[law.curve]
-    curve = entry.curve
-    if curve is None or not entry.usable:
+    entry = scene.laws.curves[law.curve] if law.curve >= 0 else None
+    if entry is None or not entry.whole or (curve := entry.curve) is None:
         return law.where
     slopes = np.append(curve.slopes, curve.slopes[-1])
     steepest = int(np.argmax(np.where(np.append(curve.ratios[1:], np.inf) > 0.0, slopes, -np.inf)))

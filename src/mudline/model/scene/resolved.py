@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,7 @@ from mudline.language.keywords.catalogue import facts_of
 from mudline.language.keywords.text import suggestion
 from mudline.language.keywords.values import Names
 from mudline.model.contact.input import LawKind
+from mudline.model.curves import ForceCurve
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
@@ -33,9 +34,6 @@ from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import SectionTable, Surroundings, read_surroundings
 from mudline.model.scene.sets import Sets
-
-if TYPE_CHECKING:
-    from mudline.model.curves import ForceCurve
 
 Value = TypeVar("Value")
 

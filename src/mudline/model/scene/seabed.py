@@ -21,7 +21,7 @@ from mudline.basics.outside import without_text
 from mudline.basics.short_repr import counted, short_repr
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.text import shown
-from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed, heading
+from mudline.model.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed, heading
 from mudline.model.scene.context import Context
 from mudline.model.scene.data_files import lines_of, number_of
 from mudline.model.scene.deck_values import file_name, find_file, number
@@ -29,7 +29,6 @@ from mudline.model.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_surface import Plane, SeabedPlanes, SeabedProfile
-    from mudline.model.contact.seabed import Seabed
     from mudline.model.contact.seabed.profile import Interpolation
 
 

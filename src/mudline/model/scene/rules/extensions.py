@@ -4,22 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity
 from mudline.model.contact.input import LawKind
+from mudline.model.contact.laws import Parameter
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.laws import Extension, rule_of_extension
 from mudline.model.scene.numbering import Mask, marked
+from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.rules.fields import lacks_diameter
-
-if TYPE_CHECKING:
-    from mudline.model.contact.laws import Parameter
-    from mudline.model.scene.curves import SceneCurve
-    from mudline.model.scene.resolved import ResolvedDeck
-
 
 EXT004 = Code("EXT004", "bad-cutoff", Severity.ERROR)
 EXT005 = Code("EXT005", "suction-incomplete", Severity.ERROR)

@@ -25,9 +25,6 @@ EXT003 = Code("EXT003", "bad-trench", Severity.ERROR)
 
 _KEYWORD = "SEABED TRENCH"
 _SIZES = ("depth", "bottom_width", "upper_width")
-_LEAST_ROWS = 2
-_FIELDS = 2
-"""Number of fields in a row of a table; a shorter row cannot be read."""
 _LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks itself"
 _HIDDEN = "; sets or lines that this deck does not show may give them another friction"
 
@@ -87,7 +84,7 @@ def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
     faults = [*_resistance_faults(entry)] if entry.model != "WALL" else []
-    unread = is_partly_unknown(entry) or (entry.table is not None and entry.table.values.shape[1] < _FIELDS)
+    unread = is_partly_unknown(entry) or (entry.table is not None and entry.table.values.shape[1] < 2)  # too short
     for path, message in faults or (() if unread else _excess_faults(entry)):
         yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
@@ -107,7 +104,7 @@ def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...]
     if entry.peak != "TABLE":
         return
     offsets = np.zeros(0) if entry.table is None else entry.table.column(0)
-    if len(offsets) < _LEAST_ROWS:
+    if len(offsets) < 2:
         yield ("peak",), "PEAK=TABLE needs two rows or more: offset from the centreline, resistance per unit length"
     if (offsets[:1] < 0.0).any():
         yield ("table", 0, 0), "the offset from the centreline is negative: it is a distance, the same on both sides"
