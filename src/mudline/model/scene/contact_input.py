@@ -28,14 +28,11 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
     """Return the arrays that the evaluator is made from; raises DeckError (RUN001) for faults that no check covers."""
     springs = ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL))
     unknown = scene.element_nodes.min(axis=1, initial=0) < 0
+    endless = springs & ~np.isfinite(scene.length) & ~unknown
     problems = []
     for found, one, many in (
         (unknown, "ends at a node that is not known", "end at nodes that are not known"),
-        (
-            springs & ~np.isfinite(scene.length) & ~unknown,
-            "has no known finite length",
-            "have no known finite length",
-        ),
+        (endless, "has no known finite length", "have no known finite length"),
     ):
         for at in np.flatnonzero(found)[:1].tolist():
             message = f"{scene.describe(found, one, many)}{_REFUSED}"

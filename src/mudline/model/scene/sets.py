@@ -98,9 +98,8 @@ class Sets:
     def check(self, name: str, where: Where) -> None:
         """Report a name at a place if no set has it."""
         if self.find(name) is None:
-            hint = self.context.hint(name, self.names)
             advice = advice_on(name) or "define it in *ELEMENT SETS"
-            message = f"set {shown(name)} is not defined{hint}: {advice}"
+            message = f"set {shown(name)} is not defined{self.context.hint(name, self.names)}: {advice}"
             self.context.report_missing(REF001, message, where, "ELEMENT SETS", name)
 
 

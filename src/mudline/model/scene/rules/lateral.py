@@ -84,7 +84,8 @@ def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
     faults = [*_resistance_faults(entry)] if entry.model != "WALL" else []
-    unread = is_partly_unknown(entry) or (entry.table is not None and entry.table.values.shape[1] < 2)  # too short
+    short = entry.table is not None and entry.table.values.shape[1] < 2  # rows without a resistance cannot be read
+    unread = is_partly_unknown(entry) or short
     for path, message in faults or (() if unread else _excess_faults(entry)):
         yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
