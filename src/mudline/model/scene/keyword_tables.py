@@ -31,8 +31,6 @@ from mudline.model.scene.csv_file import data_error
 from mudline.model.scene.sets import ALL
 from mudline.model.scene.workbook import Cell, WorkbookSheet
 
-_NOT_LETTERS = re.compile(r"[\W_]+")
-
 
 @dataclass(frozen=True, eq=False)
 class TableColumn:
@@ -122,7 +120,7 @@ def _of_record(declared: type[Block], record: type[Record]) -> Iterator[TableFor
 
 def plain(text: str) -> str:
     """Return a heading in the form in which headings are compared."""
-    return _NOT_LETTERS.sub("", text).casefold()
+    return re.sub(r"[\W_]+", "", text).casefold()
 
 
 _HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(]\s*(?P<unit>[^\[(]*?)\s*[\])])?\s*", re.DOTALL)

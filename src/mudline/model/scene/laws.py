@@ -196,9 +196,6 @@ class ResistanceValues(NamedTuple):
     extent: float = _UNKNOWN
 
 
-_NO_VALUES = ResistanceValues()
-
-
 class SeabedResistance(NamedTuple):
     """Resistance of elements, NaN where the deck gives none, in the deck's units.
 
@@ -218,7 +215,7 @@ class SeabedResistance(NamedTuple):
 
     def column(self, name: str) -> Floats:
         """Return a field of `ResistanceValues` for all elements: (m,), or (m, 2) for fields of two directions."""
-        table = np.array([getattr(entry, name) for entry in (*self.values, _NO_VALUES)], dtype=np.float64)
+        table = np.array([getattr(entry, name) for entry in (*self.values, ResistanceValues())], dtype=np.float64)
         return table[self.of_element]
 
 

@@ -180,8 +180,7 @@ def check_lines(context: Context) -> None:
         for index, path in enumerate(cast("LinePathSections", block).paths):
             place = where.inside("paths", index)
             if path.line and "LINE PATHS" in context.external_definers:
-                what = ("LINE=", "line", "*LINE PATHS")
-                _check_name(context, what, path.line, place.inside("line"), context.labels)
+                _check_name(context, ("LINE=", "line", "*LINE PATHS"), path.line, place.inside("line"), context.labels)
             for number, section in enumerate(path.sections):
                 if section.repeat:
                     what = ("REPEAT=", "group", "*LINE SECTION GROUPS")
@@ -236,13 +235,6 @@ def is_of_vessels(deck: Deck, where: Where) -> bool:
     return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
 
 
-def _uses_any_curve(line: str) -> bool:
-    if "CURVE" not in line.upper() or len(line) > _LONGEST:
-        return False
-    groups = read_line(line, Span(0, len(line))).groups
-    return any(group.key == "CURVE" for group in groups) and _uses_curve(groups)
-
-
 def _uses_curve(groups: list[FieldGroup]) -> bool:
     """Return True if CURVE= of a line uses a curve: after a number, a label, or the setting of an object.
 
@@ -250,7 +242,8 @@ def _uses_curve(groups: list[FieldGroup]) -> bool:
     """
     first = groups[0]
     text = first.fields[0].text
-    return first.key in _THINGS or (not first.key and (read_number(text) is not None or Label.match(text) is not None))
+    of_object = not first.key and (read_number(text) is not None or Label.match(text) is not None)
+    return any(group.key == "CURVE" for group in groups) and (first.key in _THINGS or of_object)
 
 
 class _Looking:
@@ -399,7 +392,8 @@ class _Looking:
         words: set[str] = set()
         for _, _, block in self.context.deck.every_block():
             for line in data_lines(raw_lines(block)):
-                if not _uses_any_curve(line):
+                worth = "CURVE" in line.upper() and len(line) <= _LONGEST
+                if not worth or not _uses_curve(read_line(line, Span(0, len(line))).groups):
                     pieces = line.replace("=", ",").split(",")
                     words.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
         return words

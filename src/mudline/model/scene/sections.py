@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from mudline.language.keywords.table import Table
     from mudline.model.scene.csv_file import ExternalElements
 
-_FORMATS = ("flexible", "rigid", "mooring", "truss")
-
 
 class Section(NamedTuple):
     """Entry of `*GEOMETRIC SETS`, or the part of a tapered joint that an element is.
@@ -171,7 +169,7 @@ def _part(joint: TaperedJoint, share: float) -> GeometricSet:
 
 def format_of(entry: GeometricSet) -> str:
     """Return the format of the property line, "" without one."""
-    return next((name for name in _FORMATS if getattr(entry, name) is not None), "")
+    return next((name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None), "")
 
 
 class Surroundings(NamedTuple):
