@@ -10,7 +10,7 @@ import pytest
 
 from mudline.language.deck.loading import load_path
 from mudline.model.scene.model import resolve
-from mudline.model.scene.weights import attached, contents, contents_case, empty_weight, left_out, operating_weight
+from mudline.model.scene.weights import attached, contents, contents_case, left_out, operating_weight
 from tests.helpers.builders.decks import CLEAN
 from tests.helpers.builders.scenes import scene_of
 
@@ -55,7 +55,8 @@ def test_masses_weigh_by_the_lengths_of_the_elements_at_their_nodes() -> None:
     np.testing.assert_allclose(found.weighing, [5.0, 50.0 / math.hypot(10.0, 0.4)])
     np.testing.assert_allclose(found.mass * scene.length, [50.0, 90.0])
     np.testing.assert_allclose(operating_weight(scene) - scene.submerged_weight, found.weighing * 9.81)
-    np.testing.assert_array_equal(empty_weight(scene), operating_weight(scene))  # nothing fills it, the masses stay
+    emptied = operating_weight(scene, filled=False)
+    np.testing.assert_array_equal(emptied, operating_weight(scene))  # nothing fills it, the masses stay
 
 
 @pytest.mark.parametrize(

@@ -105,7 +105,7 @@ def _differences(before: Scene, after: Scene, files: Mapping[str, bytes]) -> lis
     """Return the differences in meaning of the decks before and after a migration; `files` are not written yet."""
     if after.seabed.file in files:
         points = parse_profile(files[after.seabed.file], after.seabed.file, 2)
-        after = replace(after, seabed=replace(after.seabed, points=points, missing="", file=""))
+        after = replace(after, seabed=after.seabed._replace(points=points, missing="", file=""))
     return without_spelling(before, after, compare(before, after)).differences
 
 

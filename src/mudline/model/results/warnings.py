@@ -35,7 +35,6 @@ from mudline.model.scene.weights import (
     attached,
     contents,
     contents_case,
-    empty_weight,
     left_out,
     operating_weight,
 )
@@ -226,7 +225,8 @@ class ContactWatch:
         times, here = held.sum(axis=0), self._elements[held.any(axis=0)]
         times = times[times > 0] * scene.length[here]
         with np.errstate(over="ignore", invalid="ignore"):
-            weight, empty = (float((times * per[here]).sum()) for per in (self._weight, empty_weight(scene)))
+            emptied = operating_weight(scene, filled=False)
+            weight, empty = (float((times * per[here]).sum()) for per in (self._weight, emptied))
             rigid = (law == LawKind.RIGID).any()
             reaction = math.nan if rigid else float(kept(result.normal_force, self._nodes).sum())
             self.balance = _Balance(

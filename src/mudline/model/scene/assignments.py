@@ -10,7 +10,7 @@ import numpy as np
 from mudline.model.contact.input import LawAssignment, LawKind
 from mudline.model.scene.deck_values import FORCE_UNIT, LARGEST_MOBILISATION, LENGTH_UNIT, number
 from mudline.model.scene.laws import Extension
-from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked, summed, touched
+from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked, summed
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
@@ -217,7 +217,8 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
         angle = extension.values(block, "directions")
     coefficients, stiffness, mobilisation = springs
     coefficients[ends[lateral], 1] = 0.0
-    rows = np.flatnonzero(active & ~touched(scene.law == LawKind.RIGID, ends, count))
+    active[ends[scene.law == LawKind.RIGID].ravel()] = False
+    rows = np.flatnonzero(active)
     with np.errstate(all="ignore"):
         rising = coefficients[rows] / mobilisation[rows]
     if (endless := np.isinf(rising).any(axis=1)).any():
@@ -321,7 +322,8 @@ def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
     entries = _trench_sets(scene)
     if not (extension.of_element >= 0).any():
         return []
-    walls, lower = (np.array([getattr(entry, name) == text for entry in entries]) for name, text in _KINDS_OF_TRENCH)
+    walls = np.array([entry.model == "WALL" for entry in entries])
+    lower = np.array([entry.level == "LOWERED" for entry in entries])
     tabulated = np.array([_has_table(entry) for entry in entries])
     table = np.cumsum(tabulated) - 1.0
     laws = []
@@ -342,9 +344,6 @@ def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
         }
         laws.append(LawAssignment(law, rows, parameters))
     return laws
-
-
-_KINDS_OF_TRENCH = (("model", "WALL"), ("level", "LOWERED"))
 
 
 def resistance_tables(scene: ResolvedDeck) -> list[Floats]:

@@ -21,7 +21,7 @@ from mudline.language.syntax.rows import read_number
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Indices, Numbered
-from mudline.model.scene.references import KEYWORD, check_nodes, shows_nodes
+from mudline.model.scene.references import KEYWORD, check_numbers, shows_nodes
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
             _check_range(context, nodes, values, place)
             ends = enumerate((values.start, values.end))
             named += [(end, place.inside(at)) for at, end in ends if isinstance(end, Label)]
-    check_nodes(context, nodes, named)
+    check_numbers(context, Names.NODE, nodes, named)
 
 
 def _conditions(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where, Any, FixedValues | None]]:
@@ -135,8 +135,7 @@ def freedom_and_step(values: FixedValues) -> tuple[int, Any]:
 
 def _is_no_freedom(freedom: object) -> bool:
     """Return True if a value is not a degree of freedom; an unreadable value may be one. Equations give 6.0 for 6."""
-    known = isinstance(freedom, int | float) and not math.isnan(freedom)
-    return known and freedom not in FREEDOMS
+    return isinstance(freedom, int | float) and not math.isnan(freedom) and freedom not in FREEDOMS
 
 
 def nodes_on_vessels(scene: ResolvedDeck, deck: EvaluatedDeck) -> Iterator[tuple[int, frozenset[int], str]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -14,14 +14,12 @@ from mudline.language.codes import RUN001
 from mudline.language.diagnostics import DeckError, Problem
 from mudline.model.contact import ElementError
 from mudline.model.contact.input import ContactInput, LawAssignment, LawKind
+from mudline.model.contact.seabed import Seabed
 from mudline.model.scene import assignments
 from mudline.model.scene.numbering import Indices, Mask
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
 from mudline.model.scene.seabed import SeabedKind, made_seabed
-from mudline.model.scene.weights import empty_weight, operating_weight
-
-if TYPE_CHECKING:
-    from mudline.model.contact.seabed import Seabed
+from mudline.model.scene.weights import operating_weight
 
 _REFUSED = "; this cannot be evaluated"
 
@@ -30,14 +28,11 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
     """Return the arrays that the evaluator is made from; raises DeckError (RUN001) for faults that no check covers."""
     springs = ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL))
     unknown = scene.element_nodes.min(axis=1, initial=0) < 0
+    endless = springs & ~np.isfinite(scene.length) & ~unknown
     problems = []
     for found, one, many in (
         (unknown, "ends at a node that is not known", "end at nodes that are not known"),
-        (
-            springs & ~np.isfinite(scene.length) & ~unknown,
-            "has no known finite length",
-            "have no known finite length",
-        ),
+        (endless, "has no known finite length", "have no known finite length"),
     ):
         for at in np.flatnonzero(found)[:1].tolist():
             message = f"{scene.describe(found, one, many)}{_REFUSED}"
@@ -64,7 +59,7 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
             tension=tension,
             seabed=_seabed(scene),
             weight=operating_weight(scene),
-            empty_weight=empty_weight(scene),
+            empty_weight=operating_weight(scene, filled=False),
             left_out=left_out,
             names=scene,
         )

@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
@@ -46,14 +46,13 @@ _NUMBERED = {"NODE": "node", "ELEMENT": "element"}
 """Keywords whose objects have numbers."""
 
 
-@dataclass(slots=True, eq=False)
-class _Uses:
+class _Uses(NamedTuple):
     """Uses of objects of a kind that the deck does not show: code, number and place of the first, count, and effect."""
 
     code: Code
     first: int | None
     where: Where
-    count: int = 0
+    times: int = 0
     blocks: Blocks = Blocks.NEVER
 
 
@@ -138,8 +137,7 @@ class Context:
             elif is_read(block):
                 continue
             elif isinstance(deck.origin, TextOrigin):
-                kept = deck.origin.kept_lines(at.section, at.block)
-                lines = ((("unread", n), line) for n, line in enumerate(kept))
+                lines = ((("unread", n), line) for n, line in enumerate(deck.origin.kept_lines(at.section, at.block)))
             else:
                 lines = kept_places(block)
             unread += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
@@ -180,8 +178,7 @@ class Context:
         becomes equal to it by one edit.
         """
         if isinstance(lacks, int):
-            misread = self._misread.get(keyword, ())
-            places = [at for at, written in misread if edits(written, str(lacks), 1) <= 1]
+            places = [at for at, written in self._misread.get(keyword, ()) if edits(written, str(lacks), 1) <= 1]
             for at in places:
                 self.excused.setdefault(at, set()).add(lacks)
             if places:
@@ -190,9 +187,9 @@ class Context:
         unread = (name for name in self.external_definers if not (is_read_definer(name) or makes_labels(name)))
         definer = next((name for name in unread if self._definition_by(name, keyword, number)), "")
         if keyword in _NUMBERED and definer:
-            use = self._out_of_sight.setdefault((definer, keyword), _Uses(code, number, where))
-            use.count += 1
-            use.blocks = blocks or use.blocks
+            use = self._out_of_sight.get((definer, keyword), _Uses(code, number, where))
+            use = use._replace(times=use.times + 1, blocks=blocks or use.blocks)
+            self._out_of_sight[definer, keyword] = use
         elif self._reported.get(code.code, 0) <= MOST_REPORTED:
             self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
 
@@ -237,7 +234,7 @@ class Context:
             thing = _NUMBERED[keyword]
             first = "" if use.first is None else f" (first: {thing} {use.first})"
             message = (
-                f"*{definer} may define {thing}s that this deck does not show: {counted(use.count, 'use')} of such "
+                f"*{definer} may define {thing}s that this deck does not show: {counted(use.times, 'use')} of such "
                 f"{thing}s{first} cannot be checked"
             )
             own = self.written.alone.every_block()

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from mudline.basics.limits import LISTED
 from mudline.language.codes import DAT001
 from mudline.language.diagnostics import DeckError, Diagnostic, Span
-from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import shown
 from mudline.language.syntax.rows import read_number, read_rows
+from mudline.model.scene import numbering
 from mudline.model.scene.numbering import Floats, Ids
 
 SEPARATORS = (",", ";", "\t")
@@ -98,12 +98,11 @@ def data_error(file: str, message: str, line: int = 1, column: int = 1) -> DeckE
 
 def whole_numbers(name: str, column: Floats, fault: Callable[[int, str], DeckError]) -> Ids:
     """Return a column as whole numbers; raises the `fault` of a row and a message for other values, or above 2^53."""
-    with np.errstate(invalid="ignore"):
-        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST_WHOLE)
-    if not good.all():
-        row = int(np.argmin(good))
+    ids, known = numbering.whole_numbers(column)
+    if not known.all():
+        row = int(np.argmin(known))
         raise fault(row, f"{name}: {float(column[row])!r} is not a whole number up to 2^53")
-    return column.astype(np.int64)
+    return ids
 
 
 def read_csv(path: Path, needed: Sequence[str], known: Sequence[str] | None) -> CsvTable:
@@ -149,8 +148,7 @@ def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str] | 
 
     If `known` is None, any name may be there.
     """
-    row = next(csv_rows(file, text), ([], 1))[0]
-    names = [name.strip().lower() for name in row]
+    names = [name.strip().lower() for name in next(csv_rows(file, text), ([], 1))[0]]
     expected = ",".join(known or needed)
     if missing := [name for name in needed if name not in names]:
         raise data_error(file, f"the header lacks {', '.join(missing)}: expected {expected}")
@@ -222,10 +220,8 @@ def csv_rows(file: str, text: str, separator: str = ",") -> Iterator[tuple[list[
 def finite(file: str, name: str, array: NDArray[np.floating]) -> Floats:
     """Return an array as float64, one-dimensional; raises DeckError for a number that is not finite."""
     values = array.astype(np.float64).ravel()
-    if not np.isfinite(values).all():
-        raise data_error(
-            file, f"{name} holds {float(values[np.argmin(np.isfinite(values))])!r}, expected finite numbers"
-        )
+    for value in values[~np.isfinite(values)][:1].tolist():
+        raise data_error(file, f"{name} holds {value!r}, expected finite numbers")
     return values
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cache
 from math import inf
-from typing import TYPE_CHECKING, Literal, NamedTuple, cast
+from typing import Literal, NamedTuple, cast
 
 import numpy as np
 
@@ -22,13 +22,10 @@ from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.keywords.writer import field_text
+from mudline.model.curves import CurveError, ForceCurve
 from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.sections import read_surroundings
-
-if TYPE_CHECKING:
-    from mudline.model.curves import ForceCurve
-
 
 _CODES = {code.code: code for code in (CRV001, CRV011)}
 OF_SEABED = "force-embedment curve"
@@ -121,8 +118,6 @@ def _made(context: Context, given: SceneCurve) -> SceneCurve:
     Points that do not form a curve are reported: too few points, two values at one abscissa, sections with slopes that
         a float64 cannot hold. A curve of the seabed is made of the points that fit together.
     """
-    from mudline.model.curves import CurveError, ForceCurve  # noqa: PLC0415 - a deck without curves does without it
-
     blocks = None if given.of_seabed else Blocks.NEVER
     clashing, _ = clashes_and_repeats(given.points)
     keep = np.delete(np.arange(len(given.points)), clashing)
@@ -171,10 +166,9 @@ def _below_surface(context: Context, curve: SceneCurve) -> SceneCurve:
 @cache
 def _has_curves(part: type[Part]) -> bool:
     """Return True if a part, or a record in it, has a table that is a curve."""
-    slots = record_schema(part).slots
     return any(
         (isinstance(slot.about, Rows) and slot.about.curve) or any(map(_has_curves, slot.record.values()))
-        for slot in slots
+        for slot in record_schema(part).slots
     )
 
 

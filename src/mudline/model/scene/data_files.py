@@ -86,15 +86,20 @@ def unequal_frequencies(rows: Sequence[Sequence[float]]) -> str:
 def _lines(path: Path) -> Iterator[DataLine]:
     if path.stat().st_size > LARGEST_FILE:
         raise ValueError(f"the file has more than {LARGEST_FILE // 10**6} million bytes")
-    source = Source.from_bytes(path.read_bytes(), path.name)
+    for line in lines_of(path.read_bytes(), path.name):
+        if "\t" in line.text:
+            raise ValueError(f"line {line.number}: a TAB is not allowed here: write spaces or commas")
+        yield line
+
+
+def lines_of(data: bytes, name: str) -> Iterator[DataLine]:
+    """Yield the lines of a file's content that are neither blank nor comments; raises ValueError if it is not text."""
+    source = Source.from_bytes(data, name)
     if not source.readable:
         raise ValueError(source.problems[0].message)
     for number, text in enumerate(source.unified.split("\n"), 1):
-        if not text.strip() or text.startswith("C"):
-            continue
-        if "\t" in text:
-            raise ValueError(f"line {number}: a TAB is not allowed here: write spaces or commas")
-        yield DataLine(number, text)
+        if text.strip() and not text.startswith("C"):
+            yield DataLine(number, text)
 
 
 def number_of(word: str, line: int) -> float:

@@ -74,10 +74,8 @@ def not_found(folder: Path, name: str) -> tuple[str, Severity]:
     except OSError:
         refused = False
     if refused:
-        return (
-            f"the file {shown(name)} lies outside of the project {project_of(folder).as_posix()}, and is refused",
-            Severity.ERROR,
-        )
+        message = f"the file {shown(name)} lies outside of the project {project_of(folder).as_posix()}, and is refused"
+        return message, Severity.ERROR
     looked = f"looked in {folder.as_posix()}"
     message = f"the file {shown(name)} was not found ({looked}): correct the name, or put the file there"
     return message, Severity.WARNING if _has_siblings(folder / name) else Severity.INFO

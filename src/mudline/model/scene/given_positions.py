@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,14 +11,11 @@ from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted
 from mudline.language.codes.contact import RUN006, RUN007, RUN008
 from mudline.language.diagnostics import Code, Where
-from mudline.model.scene.deck_values import number
+from mudline.model.contact.arrays import Positions
+from mudline.model.contact.input import ContactInput
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
-
-if TYPE_CHECKING:
-    from mudline.model.contact.arrays import Positions
-    from mudline.model.contact.input import ContactInput
 
 FLAT = 0.01
 """Share of the water depth by which the X of nodes may differ in a line that is upright along Z."""
@@ -28,7 +25,7 @@ DEEPEST = 5.0
 """Depth in diameters below 0 at which Z may still be the height of a pipe that lies on the seabed."""
 LEVEL = 0.005
 """Ratio of rise to length of a level element."""
-GROSS = 1.5, 0.1
+_GROSS = 1.5, 0.1
 """Limits of a wrong order of nodes: factor between length and distance, and share of elements beyond it."""
 _SLIGHT = 1.1
 """Factor between length and distance beyond which a deck's element does not fit: no pipe stretches by a tenth."""
@@ -62,8 +59,7 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     if not used.size or not np.isfinite(used).all():
         return ""
     (low_x, _, low_z), (high_x, _, high_z) = used.min(axis=0), used.max(axis=0)
-    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
-    depth = number(oceans[-1], "depth") if oceans else np.nan
+    depth = scene.surroundings.depth
     rise = high_z - low_z
     near = NEAR * depth
     if abs(rise - depth) <= near and min(abs(low_z), abs(high_z)) <= near and high_x - low_x <= FLAT * depth:
@@ -84,10 +80,11 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     return ""
 
 
-def off_lengths(scene: Scene, places: Floats, factor: float) -> tuple[Indices, Indices]:
+def _off_lengths(scene: Scene, places: Floats, factor: float) -> tuple[Indices, Indices, Floats]:
     """Return the elements whose distance of ends at `places` (n, 3) differs from their length by `factor`; and all.
 
-    Springs, and elements whose length or positions are not known, are left out of both.
+    Springs, and elements whose length or positions are not known, are left out of both. The distances (m,) of all ends
+    are the third result.
     """
     ends = places[scene.element_nodes]
     apart = distances(ends[:, 0], ends[:, 1])
@@ -95,7 +92,7 @@ def off_lengths(scene: Scene, places: Floats, factor: float) -> tuple[Indices, I
         ratio = apart / scene.length
         known = np.flatnonzero((scene.length > 0.0) & np.isfinite(apart) & np.isfinite(scene.length))
         off = known[~((ratio[known] <= factor) & (ratio[known] >= 1.0 / factor))]
-    return off, known
+    return off, known, apart
 
 
 def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
@@ -106,18 +103,16 @@ def require_order(positions: Positions, scene: Scene, file: str) -> Positions:
     if positions.numbered:
         return positions
     places = np.asarray(positions.values[0], dtype=np.float64)
-    off, known = off_lengths(scene, places, GROSS[0])
-    if len(off) < 1 or len(off) < GROSS[1] * len(known):
+    off, known, apart = _off_lengths(scene, places, _GROSS[0])
+    if len(off) < 1 or len(off) < _GROSS[1] * len(known):
         return positions
     first = int(off[0])
     first_node, second_node = scene.node_ids[scene.element_nodes[first]].tolist()
-    ends = places[scene.element_nodes[first]]
-    apart = float(distances(ends[:1], ends[1:])[0])
     message = (
         f"the positions are not in ascending order of the node numbers: nodes {first_node} and {second_node} of "
-        f"element {scene.element_ids[first]} are {shown(apart)} apart, and its length is "
+        f"element {scene.element_ids[first]} are {shown(float(apart[first]))} apart, and its length is "
         f"{shown(float(scene.length[first]))} ({len(off)} of {counted(len(known), 'element')} differ by over "
-        f"{GROSS[0]:g} times); sort them, or give their numbers in a CSV, or in the array node of an NPZ"
+        f"{_GROSS[0]:g} times); sort them, or give their numbers in a CSV, or in the array node of an NPZ"
     )
     from mudline.model.scene.csv_file import data_error  # noqa: PLC0415 - checking a deck does without it
 
@@ -132,14 +127,12 @@ def position_doubts(contact_input: ContactInput, scene: Scene, present: Mask, pl
         missing = counted(int((~present).sum()), "node")
         message = f"no positions for {missing}: {scene.describe(lost, 'is', 'are')} left out"
         doubts.append(Doubt(RUN007, message, None, lost, ""))
-    off, known = off_lengths(scene, places, _SLIGHT)
+    off, known, apart = _off_lengths(scene, places, _SLIGHT)
     if off.size:
         first = int(off[0])
-        ends = places[scene.element_nodes[first]]
-        apart = shown(float(distances(ends[:1], ends[1:])[0]))
         message = (
             f"the ends of {len(off)} of {counted(len(known), 'element')} are over a tenth nearer or further apart than "
-            f"the element is long (first: {scene.element_ids[first]}, {apart} instead of "
+            f"the element is long (first: {scene.element_ids[first]}, {shown(float(apart[first]))} instead of "
             f"{shown(float(scene.length[first]))}): check that the positions are of this deck, and their units"
         )
         doubts.append(Doubt(RUN006, message, None, off, "distances differ from lengths"))

@@ -20,6 +20,7 @@ from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.fields import Setting
+from mudline.language.keywords.format import unit_text
 from mudline.language.keywords.model import Block, FieldSpec, Record, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation, Kind, Names
@@ -29,8 +30,6 @@ from mudline.model.curves import CurveError, ForceCurve
 from mudline.model.scene.csv_file import data_error
 from mudline.model.scene.sets import ALL
 from mudline.model.scene.workbook import Cell, WorkbookSheet
-
-_NOT_LETTERS = re.compile(r"[\W_]+")
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,12 +120,10 @@ def _of_record(declared: type[Block], record: type[Record]) -> Iterator[TableFor
 
 def plain(text: str) -> str:
     """Return a heading in the form in which headings are compared."""
-    return _NOT_LETTERS.sub("", text).casefold()
+    return re.sub(r"[\W_]+", "", text).casefold()
 
 
 _HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(]\s*(?P<unit>[^\[(]*?)\s*[\])])?\s*", re.DOTALL)
-_UNITS = {"metric": ("N", "m", "kg", "s"), "imperial": ("lbf", "ft", "slug", "s")}
-"""Units of force, length, mass and time in a unit system."""
 
 
 class TableDeck(NamedTuple):
@@ -240,8 +237,8 @@ def _systems(sheet: WorkbookSheet, cell: Cell, dimension: str, unit: str) -> lis
     """Return the unit system of a unit in a heading, if it shows one. Raises DeckError for a unit of no system."""
     if not unit or dimension in {"", "-", "deg"}:
         return []
-    units = {system: dict(zip("FLMT", names, strict=True)) for system, names in _UNITS.items()}
-    names = {system: "".join(own.get(letter, letter) for letter in dimension) for system, own in units.items()}
+    texts = {system: unit_text(dimension.replace(" ", ""), system) for system in ("metric", "imperial")}
+    names = {system: text.replace(" ", "") for system, text in texts.items()}
     written = unit.replace("^", "").replace("²", "2").replace("³", "3").replace(" ", "")
     fitting = [system for system, name in names.items() if name == written]
     if not fitting:
@@ -255,13 +252,12 @@ def _systems(sheet: WorkbookSheet, cell: Cell, dimension: str, unit: str) -> lis
 
 @dataclass
 class _NamedRows:
-    """Rows that belong together: their name, its cell, and each row with its cells."""
+    """Rows that belong together: their name, its cell, each row with its line, and the first column of values."""
 
     sheet: WorkbookSheet
     name: str
     cell: tuple[int, int]
-    lines: list[str] = field(default_factory=list)
-    rows: list[int] = field(default_factory=list)
+    lines: list[tuple[int, str]] = field(default_factory=list)
     first: int = 1
 
 
@@ -287,8 +283,7 @@ def _entries(sheet: WorkbookSheet, head: _Head) -> list[_NamedRows]:
             name = _name(sheet, head.places[named], named, cells_by_column, row, name)
         place = row, head.places[named] if named else first
         entry = entries.setdefault((name or "").casefold(), _NamedRows(sheet, name or "", place, first=first))
-        entry.lines.append(_line(sheet, head, cells_by_column, row))
-        entry.rows.append(row)
+        entry.lines.append((row, _line(sheet, head, cells_by_column, row)))
     return list(entries.values())
 
 
@@ -386,7 +381,7 @@ def _deck(tables: Mapping[TableForm, Sequence[_NamedRows]], file: str, units: st
         for entry in entries:
             if form.name:
                 text.add(f"{form.name.spec.key}={entry.name}", entry, entry.cell)
-            for line, row in zip(entry.lines, entry.rows, strict=True):
+            for row, line in entry.lines:
                 text.add(line, entry, (row, entry.first))
     deck = read_source(Source(file, "\n".join([*text.lines, ""])), units=units)
     deck.source = PurePath(file).name
@@ -415,5 +410,5 @@ def _check(deck: Deck, tables: Mapping[TableForm, Sequence[_NamedRows]]) -> None
                 try:
                     ForceCurve(points)
                 except CurveError as error:
-                    row = entry.rows[error.index] if 0 <= error.index < len(entry.rows) else entry.cell[0]
+                    row = entry.lines[error.index][0] if 0 <= error.index < len(entry.lines) else entry.cell[0]
                     raise entry.sheet.fault(row, entry.first, str(error)) from error

@@ -125,18 +125,16 @@ def _surfaces(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
         yield SetLaw(LawKind.RIGID, sets.everything, where, "legacy")
     for where, block in context.blocks("ELASTIC SURFACE"):
         laws.types.setdefault("ELASTIC", []).append(where)
-        place = where.inside("properties")
+        place = where.inside("properties", "stiffness")
         stiffness = getattr(cast("ElasticSurface", block).properties, "stiffness", None)
-        field_ = place.inside("stiffness")
         if stiffness is not None:
             value = float(cast("float", stiffness))
-            yield SetLaw(LawKind.LINEAR, sets.everything, field_, "legacy", value, unknown=not value >= 0)
+            yield SetLaw(LawKind.LINEAR, sets.everything, place, "legacy", value, unknown=not value >= 0)
 
 
 def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[SetLaw]:
     for index, curve in enumerate(laws.curves[first:], first):
-        set_ = sets.find(curve.name) if curve.name else None
-        holder = set_ or _unknown(curve.name)
+        holder = (sets.find(curve.name) if curve.name else None) or _unknown(curve.name)
         yield SetLaw(LawKind.CURVE, holder, curve.where, "legacy", curve=index, unknown=not curve.usable)
 
 
@@ -199,9 +197,6 @@ class ResistanceValues(NamedTuple):
     extent: float = _UNKNOWN
 
 
-_NO_VALUES = ResistanceValues()
-
-
 class SeabedResistance(NamedTuple):
     """Resistance of elements, NaN where the deck gives none, in the deck's units.
 
@@ -221,7 +216,7 @@ class SeabedResistance(NamedTuple):
 
     def column(self, name: str) -> Floats:
         """Return a field of `ResistanceValues` for all elements: (m,), or (m, 2) for fields of two directions."""
-        table = np.array([getattr(entry, name) for entry in (*self.values, _NO_VALUES)], dtype=np.float64)
+        table = np.array([getattr(entry, name) for entry in (*self.values, ResistanceValues())], dtype=np.float64)
         return table[self.of_element]
 
 
@@ -247,9 +242,7 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
 
 def present(covered: Indices) -> list[int]:
     """Return the indices that occur, without -1, in ascending order."""
-    one_for_all = len(covered) and covered.strides == (0,)
-    indices = covered[:1] if one_for_all else covered
-    return np.bincount(indices[indices >= 0]).nonzero()[0].tolist()
+    return np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
 
 
 def _resistance(entry: object, friction: object, suction: object, prefix: str = "") -> ResistanceValues:

@@ -55,9 +55,8 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
                 gathered.add(line.batch)
     placeless = {line.batch.where for line in waiting if not _late(context, gathered, line)}
     if external is not None:
-        known = gathered.resolve(3)
         extra = np.unique(external.nodes)
-        extra = extra[known.indices(extra) < 0]
+        extra = extra[gathered.resolve(3).indices(extra) < 0]
         gathered.add(DefinitionBatch(extra, np.full((len(extra), 3), np.nan), Where()))
     nodes = gathered.resolve(3)
     repeats = nodes.repeats

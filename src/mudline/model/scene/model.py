@@ -59,8 +59,7 @@ class Scene(ResolvedDeck):
     @cached_property
     def problems(self) -> list[Problem]:
         """Problems from resolving the deck and from the rules that block."""
-        found = findings(_rules(), self)
-        return [*self.noticed, *chain.from_iterable(found)]
+        return [*self.noticed, *chain.from_iterable(findings(_rules(), self))]
 
     def blocking(self, tension: Literal["keep", "cut"] = "keep") -> list[Problem]:
         """Return the findings that keep the scene from being evaluated; `tension` is that of `contact`."""

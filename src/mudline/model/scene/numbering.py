@@ -238,10 +238,3 @@ def summed(values: Floats, element_nodes: Indices, nodes: int) -> Floats:
     for end in element_nodes.T:
         np.add.at(total, end, values)
     return total
-
-
-def touched(elements: Mask, element_nodes: Indices, nodes: int) -> Mask:
-    """Return a mask of the nodes with a marked element."""
-    marked_nodes = np.zeros(nodes, dtype=np.bool_)
-    marked_nodes[element_nodes[elements].ravel()] = True
-    return marked_nodes

@@ -15,12 +15,11 @@ import numpy as np
 
 from mudline.basics.quantities import time_unit, unit_names
 from mudline.language.diagnostics import Where
-from mudline.model.contact.input import LawKind
+from mudline.model.contact.input import ContactInput
 from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, summed
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
-    from mudline.model.contact.input import ContactInput
     from mudline.model.contact.stiffest import Stiffest
 
 _RISES = np.linspace(0.02, 1.0, 50)
@@ -175,15 +174,20 @@ def _of_group(
         weight = np.where(carried.leading(stiffness)[group], of_nodes[ends] / carried.mass[ends], np.nan)
         if np.isnan(weight).all():
             weight = of_nodes[ends] / carried.mass[ends]
+    found = _fastest(kind, name, ends.ravel(), weight.ravel(), of_nodes, carried.mass)
+    yield from (contact._replace(where=where) for contact in found)
+
+
+def _fastest(
+    kind: str, name: str, nodes: Indices, weight: Floats, stiffness: Floats, mass: Floats
+) -> Iterator[Oscillation]:
+    """Yield the contact at the node with the largest weight, if it is known and the contact oscillates there."""
     if not np.isnan(weight).all():
-        node = int(ends.ravel()[np.nanargmax(weight)])
-        yield from _known(Oscillation(kind, name, node, float(of_nodes[node]), float(carried.mass[node]), where))
-
-
-def _known(contact: Oscillation) -> Iterator[Oscillation]:
-    """Yield a contact, if it oscillates."""
-    if contact.mass > 0.0 and math.isfinite(contact.mass) and math.isfinite(contact.stiffness) and contact.omega > 0.0:
-        yield contact
+        node = int(nodes[np.nanargmax(weight)])
+        contact = Oscillation(kind, name, node, float(stiffness[node]), float(mass[node]), None)
+        known = contact.mass > 0.0 and math.isfinite(contact.mass) and math.isfinite(contact.stiffness)
+        if known and contact.omega > 0.0:
+            yield contact
 
 
 def _of_nodes(scene: ResolvedDeck, stiffness: Floats, carried: _Carried) -> Iterator[Oscillation]:
@@ -202,9 +206,7 @@ def _of_node(kind: str, name: str, nodes: Indices, stiffness: Floats, carried: _
     with np.errstate(all="ignore"):
         per_length = stiffness / carried.length
         weight = per_length[nodes] / carried.mass[nodes]
-    if not np.isnan(weight).all():
-        node = int(nodes[np.nanargmax(weight)])
-        yield from _known(Oscillation(kind, name, node, float(per_length[node]), float(carried.mass[node]), None))
+    yield from _fastest(kind, name, nodes, weight, per_length, carried.mass)
 
 
 def _of_springs(
@@ -275,11 +277,8 @@ def _place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
     law = scene.set_law(element)
     if law is None:
         return None
-    if law.kind is not LawKind.CURVE or law.curve < 0:
-        return law.where
-    entry = scene.laws.curves[law.curve]
-    curve = entry.curve
-    if curve is None or not entry.usable:
+    entry = scene.laws.curves[law.curve] if law.curve >= 0 else None
+    if entry is None or not entry.whole or (curve := entry.curve) is None:
         return law.where
     slopes = np.append(curve.slopes, curve.slopes[-1])
     steepest = int(np.argmax(np.where(np.append(curve.ratios[1:], np.inf) > 0.0, slopes, -np.inf)))

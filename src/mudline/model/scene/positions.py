@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 import weakref
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from math import prod
@@ -19,7 +19,7 @@ from mudline.basics.short_repr import listed_numbers, short_repr
 from mudline.language.diagnostics import DeckError
 from mudline.model.contact.arrays import Positions, StepReader
 from mudline.model.scene.csv_file import DAMAGED, NumericTable, data_error, finite, read_numeric_csv, whole_numbers
-from mudline.model.scene.numbering import Floats, Ids, Indices, Numbered
+from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 
 _AXES = ("x", "y", "z")
 _VELOCITIES = ("vx", "vy", "vz")
@@ -127,12 +127,8 @@ def _of_table(table: NumericTable, nodes: Numbered) -> Positions:
     if len({name in table.columns for name in _VELOCITIES}) > 1:
         raise data_error(table.file, "velocities need all of vx, vy and vz")
     ids = whole_numbers("node", table.columns["node"], lambda row, why: data_error(table.file, why, table.lines[row]))
-    where = nodes.indices(ids)
-    if (where < 0).any():
-        raise _unknown(table.file, ids[where < 0], table.lines[int(np.argmax(where < 0))])
+    where, present = _placed(table.file, ids, nodes, table.lines)
     times, step = np.unique(table.columns.get("time", np.zeros(len(ids))), return_inverse=True)
-    present = np.zeros(len(nodes), dtype=bool)
-    present[where] = True
     _complete(table, ids, step, times)
     shape = (len(times), len(nodes))
     values = _scatter(table, _AXES, shape, step, where)
@@ -170,11 +166,20 @@ def _scatter(
     return values
 
 
-def _unknown(file: str, ids: Ids, line: int = 1) -> DeckError:
-    """Return the error of nodes that the deck lacks."""
-    numbers = np.unique(ids).tolist()
-    noun, verb = ("node", "is") if len(numbers) == 1 else ("nodes", "are")
-    return data_error(file, f"{noun} {listed_numbers(numbers)} {verb} not defined in the deck", line)
+def _placed(file: str, ids: Ids, nodes: Numbered, lines: Sequence[int] = ()) -> tuple[Indices, Mask]:
+    """Return indices of node numbers, and a mask of all nodes that has these; raises DeckError for undefined ones.
+
+    `lines` are those of the numbers in the file, if it has lines.
+    """
+    where = nodes.indices(ids)
+    if (lacking := where < 0).any():
+        numbers = np.unique(ids[lacking]).tolist()
+        noun, verb = ("node", "is") if len(numbers) == 1 else ("nodes", "are")
+        message = f"{noun} {listed_numbers(numbers)} {verb} not defined in the deck"
+        raise data_error(file, message, lines[int(np.argmax(lacking))] if lines else 1)
+    present = np.zeros(len(nodes), dtype=np.bool_)
+    present[where] = True
+    return where, present
 
 
 def _from_npy(path: Path, nodes: Numbered) -> Positions:
@@ -270,14 +275,14 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordere
         if velocities.shape != positions.shape:
             raise _wrong_shape(file, "velocities", velocities, str(positions.shape))
         velocities = velocities.reshape(values.shape)
-    counted = None if positions.ndim == 2 else np.arange(len(values), dtype=np.float64)
-    time = _times(file, arrays["time"], len(values)) if "time" in arrays else counted
+    time = None if positions.ndim == 2 else np.arange(len(values), dtype=np.float64)
+    if (given := arrays.get("time")) is not None:
+        if given.shape != (len(values),) and not (given.shape == () and len(values) == 1):
+            raise _wrong_shape(file, "time", given, f"({len(values)},)")
+        time = finite(file, "time", given)
     present = np.full(len(nodes), ids is None)
     if ids is not None:
-        where = nodes.indices(ids)
-        if (where < 0).any():
-            raise _unknown(file, ids[where < 0])
-        present[where] = True
+        where, present = _placed(file, ids, nodes)
         if int(present.sum()) != len(where):
             raise data_error(file, "a node is listed twice in the array node")
         values = _spread(values, where, len(nodes))
@@ -285,13 +290,6 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered, *, ordere
     elif not ordered and (ranks := _ranks(nodes)) is not None:
         values, velocities = values[:, ranks], None if velocities is None else velocities[:, ranks]
     return Positions(values, present, time, velocities, "time" in arrays, ids is not None)
-
-
-def _times(file: str, times: Reals, steps: int) -> Floats:
-    """Return the time of each step; a single state may have a scalar."""
-    if times.shape != (steps,) and not (times.shape == () and steps == 1):
-        raise _wrong_shape(file, "time", times, f"({steps},)")
-    return finite(file, "time", times)
 
 
 def _wrong_shape(file: str, name: str, array: Reals, expected: str) -> DeckError:

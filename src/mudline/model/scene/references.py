@@ -74,8 +74,7 @@ def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterato
 def _doubt(context: Context, definers: Collection[str]) -> str:
     """Return in words the unread line that may define an object; "" if there is none."""
     for where, _, block in context.deck.every_block():
-        unsure = block.keyword in definers and (isinstance(block, Opaque) or not is_read(block))
-        if unsure or (block.keyword in definers and context.deck.lost(where)):
+        if block.keyword in definers and (type(block) is Opaque or not is_read(block) or context.deck.lost(where)):
             return f"; a line of *{block.keyword} that was not read may define it"
     words = (context.possible_definition(keyword) for keyword in definers)
     return next((f"; {definition}" for definition in words if definition), "")
@@ -116,9 +115,9 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
     for where, _, block in context.deck.every_block():
         if type(block) is Opaque or not _names_idents(type(block)):
             continue
-        for what, check in ((Names.NODE, check_nodes), (Names.ELEMENT, _check_elements)):
-            named = [(ident, where._replace(path=path)) for path, ident in idents_given(block, what)]
-            check(context, nodes if what is Names.NODE else elements, named)
+        for kind, known in ((Names.NODE, nodes), (Names.ELEMENT, elements)):
+            named = [(ident, where._replace(path=path)) for path, ident in idents_given(block, kind)]
+            check_numbers(context, kind, known, named)
 
 
 @cache
@@ -145,40 +144,27 @@ KEYWORD = "BOUNDARY"
 """Keyword with its own check: some nodes of its ranges may be undefined."""
 
 
-def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
-    """Report undefined numbers of elements, and in a deck with `*LABEL` undefined labels."""
-    labelled = "LABEL" in context.deck.keywords() and not context.external_definers
-    for ident, where in named if labelled else ():
-        if isinstance(ident, Label):
-            context.report_label(REF005, ident, where, "ELEMENT", blocks=Blocks.NEVER)
-    numbers = [(ident, where) for ident, where in named if isinstance(ident, int) and not isinstance(ident, bool)]
-    if not numbers or not (len(elements) or "ELEMENT" in context.deck.keywords()):
-        return
-    indices = elements.indices(np.array([number for number, _ in numbers], dtype=np.int64))
-    for index in np.flatnonzero(indices < 0)[: MOST_REPORTED + 1].tolist():
+def check_numbers(context: Context, kind: Names, known: Numbered, named: Sequence[tuple[object, Where]]) -> None:
+    """Report undefined nodes or elements, numbers or labels; any other value could not be read and is skipped.
+
+    Labels of elements are checked only in a deck with `*LABEL`. Undefined elements do not keep a deck from being
+    evaluated.
+    """
+    is_node, keyword = kind is Names.NODE, kind.name
+    code, blocks = (REF006, None) if is_node else (REF005, Blocks.NEVER)
+    shows = len(known) > 0 or keyword in context.deck.keywords()
+    labels = "LABEL" in context.deck.keywords() and not context.external_definers
+    if is_node:
+        labels = shows or bool(context.external_definers)
+    for ident, where in named if labels else ():
+        if isinstance(ident, Label) and not (is_node and context.is_guessed_label(where)):
+            context.report_label(code, ident, where, keyword, blocks=blocks)
+    numbers = [(ident, where) for ident, where in named if isinstance(ident, int)]
+    missing = np.flatnonzero(known.indices(np.array([number for number, _ in numbers], dtype=np.int64)) < 0)
+    for index in missing[: MOST_REPORTED + 1].tolist() if shows else ():
         number, where = numbers[index]
-        message = f"element {number} is not defined: define it in *ELEMENT, or correct the number"
-        context.report_missing(REF005, message, where, "ELEMENT", number, blocks=Blocks.NEVER)
-
-
-def check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object, Where]]) -> None:
-    """Report undefined nodes, numbers or labels; any other value could not be read and is skipped."""
-    if not named:
-        return
-    numbers: list[int] = []
-    places: list[Where] = []
-    shown_nodes = shows_nodes(context, nodes)
-    for node, where in named:
-        if isinstance(node, Label):
-            if (shown_nodes or context.external_definers) and not context.is_guessed_label(where):
-                context.report_label(REF006, node, where, "NODE")
-        elif isinstance(node, int):
-            numbers.append(node)
-            places.append(where)
-    missing = np.flatnonzero(nodes.indices(np.array(numbers, dtype=np.int64)) < 0)
-    for index in missing[: MOST_REPORTED + 1].tolist() if shown_nodes else ():
-        message = f"node {numbers[index]} is not defined: define it in *NODE, or correct the number"
-        context.report_missing(REF006, message, places[index], "NODE", numbers[index])
+        message = f"{keyword.lower()} {number} is not defined: define it in *{keyword}, or correct the number"
+        context.report_missing(code, message, where, keyword, number, blocks=blocks)
 
 
 def shows_nodes(context: Context, nodes: Numbered) -> bool:
@@ -194,8 +180,7 @@ def check_lines(context: Context) -> None:
         for index, path in enumerate(cast("LinePathSections", block).paths):
             place = where.inside("paths", index)
             if path.line and "LINE PATHS" in context.external_definers:
-                what = ("LINE=", "line", "*LINE PATHS")
-                _check_name(context, what, path.line, place.inside("line"), context.labels)
+                _check_name(context, ("LINE=", "line", "*LINE PATHS"), path.line, place.inside("line"), context.labels)
             for number, section in enumerate(path.sections):
                 if section.repeat:
                     what = ("REPEAT=", "group", "*LINE SECTION GROUPS")
@@ -250,13 +235,6 @@ def is_of_vessels(deck: Deck, where: Where) -> bool:
     return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
 
 
-def _uses_any_curve(line: str) -> bool:
-    if "CURVE" not in line.upper() or len(line) > _LONGEST:
-        return False
-    groups = read_line(line, Span(0, len(line))).groups
-    return any(group.key == "CURVE" for group in groups) and _uses_curve(groups)
-
-
 def _uses_curve(groups: list[FieldGroup]) -> bool:
     """Return True if CURVE= of a line uses a curve: after a number, a label, or the setting of an object.
 
@@ -264,7 +242,8 @@ def _uses_curve(groups: list[FieldGroup]) -> bool:
     """
     first = groups[0]
     text = first.fields[0].text
-    return first.key in _THINGS or (not first.key and (read_number(text) is not None or Label.match(text) is not None))
+    of_object = not first.key and (read_number(text) is not None or Label.match(text) is not None)
+    return any(group.key == "CURVE" for group in groups) and (first.key in _THINGS or of_object)
 
 
 class _Looking:
@@ -323,8 +302,7 @@ class _Looking:
 
     def _keyless(self, where: Where, keyword: str, groups: list[FieldGroup]) -> None:
         """Report a line of a keyword that is read, if the key before its first value is missing."""
-        section = self.context.written.sections[where.section].name
-        block = catalogue.block_class(section, keyword)
+        block = catalogue.block_class(self.context.written.sections[where.section].name, keyword)
         first = groups[0].fields[0]
         alone = len(groups) > 1 and not groups[0].key and len(groups[0].fields) == 1 and first.text[:1].isalpha()
         if block is None or not alone:
@@ -414,7 +392,8 @@ class _Looking:
         words: set[str] = set()
         for _, _, block in self.context.deck.every_block():
             for line in data_lines(raw_lines(block)):
-                if not _uses_any_curve(line):
+                worth = "CURVE" in line.upper() and len(line) <= _LONGEST
+                if not worth or not _uses_curve(read_line(line, Span(0, len(line))).groups):
                     pieces = line.replace("=", ",").split(",")
                     words.update(name_key(piece) for each in pieces for piece in (each, *each.split()))
         return words

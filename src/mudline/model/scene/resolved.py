@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from mudline.language.keywords.catalogue import facts_of
 from mudline.language.keywords.text import suggestion
 from mudline.language.keywords.values import Names
 from mudline.model.contact.input import LawKind
+from mudline.model.curves import ForceCurve
 from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
@@ -30,17 +31,8 @@ from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
-from mudline.model.scene.sections import (
-    SectionTable,
-    Surroundings,
-    mass_per_length,
-    read_surroundings,
-    submerged_weight,
-)
+from mudline.model.scene.sections import SectionTable, Surroundings, read_surroundings
 from mudline.model.scene.sets import Sets
-
-if TYPE_CHECKING:
-    from mudline.model.curves import ForceCurve
 
 Value = TypeVar("Value")
 
@@ -224,7 +216,7 @@ class ResolvedDeck:
     @cached_property
     def mass_per_length(self) -> Floats:
         """Mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
-        return mass_per_length(self.section_table)
+        return self.section_table.mass_per_length()
 
     @cached_property
     def submerged_weight(self) -> Floats:
@@ -235,7 +227,7 @@ class ResolvedDeck:
         around, land = self.surroundings, None
         if self.seabed.kind is not SeabedKind.FLAT:
             land = on_land(self.seabed, around.depth, self.coordinates, self.element_nodes)
-        return submerged_weight(self.section_table, around, land)
+        return self.section_table.submerged_weight(around, land)
 
     @cached_property
     def sets(self) -> ByName[Ids]:
@@ -283,8 +275,7 @@ class ResolvedDeck:
         for keyword, extension in reversed(self.extensions.items()):
             law, field = facts_of(keyword).gives_law
             if law:
-                asked = extension.asking(field) & soft
-                replaced_laws.append(Replaced(LawKind[law.upper()], field, extension, asked))
+                replaced_laws.append(Replaced(LawKind[law.upper()], field, extension, extension.asking(field) & soft))
         return replaced_laws
 
     @property

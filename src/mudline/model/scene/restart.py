@@ -33,15 +33,13 @@ class _Bases(NamedTuple):
     """Decks before a deck, the nearest first.
 
     bases: the decks.
-    fault: reason why the first of all was not reached, "" if it was.
-    is_own: the fault is that of the deck itself: of its own LAST=, or of a cycle back to it.
-    is_refused: the first of all lies outside of the project, and must not be read.
+    is_whole: the first of all was reached.
+    fault: reason why it was not, if that is in the deck itself: in its own LAST=, or a cycle back to it.
     """
 
     bases: list[Base]
-    fault: str = ""
-    is_own: bool = False
-    is_refused: bool = False
+    is_whole: bool = False
+    fault: Problem | None = None
 
 
 def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
@@ -52,14 +50,10 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
     names = list(_names(deck))
     if deck.folder is None or not names:
         return deck, []
-    problems: list[Problem] = []
-    for where, name in names[:-1]:
-        if find_deck(deck, name) is None:
-            problems.append(_reported(*_missing(deck, name), where))
-    where, _ = names[-1]
+    problems = [_missing(deck, name, where) for where, name in names[:-1] if find_deck(deck, name) is None]
     chain = _follow(deck)
-    if chain.is_own:
-        problems.append(_reported(chain.fault, chain.is_refused, where))
+    if chain.fault:
+        problems.append(replace(chain.fault, where=names[-1][0]))
     if not chain.bases:
         return deck, problems
     for base in chain.bases:
@@ -74,13 +68,9 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
         units=next((name for name in units if name != "user"), "user"),
         sections=[*deck.sections, *(model for base in reversed(chain.bases) for model in base.sections.values())],
         bases=tuple(chain.bases),
-        incomplete=bool(chain.fault),
+        incomplete=not chain.is_whole,
     )
     return whole, problems
-
-
-def _reported(fault: str, refused: bool, where: Where) -> Problem:  # noqa: FBT001 - as `_missing` returns it
-    return Problem(REF015, fault, None, Severity.ERROR if refused else None, where)
 
 
 def decks_before(deck: Deck) -> list[Path]:
@@ -91,12 +81,10 @@ def decks_before(deck: Deck) -> list[Path]:
 
 def _names(deck: Deck) -> Iterator[tuple[Where, str]]:
     """Yield every LAST=, with the values of parameters put in."""
-    blocks = [(where, cast("Restart", block)) for where, block in deck.blocks("RESTART", "LOAD CASE")]
-    parameters = Parameters(deck) if any("%" in (block.last or "") for _, block in blocks) else None
-    for where, block in blocks:
-        if block.last:
-            name = parameters.filled(block.last) if parameters else block.last
-            yield where.inside("last"), name
+    parameters = Parameters(deck)
+    for where, block in deck.blocks("RESTART", "LOAD CASE"):
+        if last := cast("Restart", block).last:
+            yield where.inside("last"), parameters.filled(last)
 
 
 def _follow(deck: Deck) -> _Bases:
@@ -106,39 +94,40 @@ def _follow(deck: Deck) -> _Bases:
     trail = [Path(deck.file).name]
     current = deck
     while "RESTART" in current.keywords("LOAD CASE"):
-        name = next((name for _, name in reversed(list(_names(current)))), None)
-        if name is None:
-            return _Bases(bases, f"the *RESTART of {trail[-1]} could not be read")
+        names = list(_names(current))
+        if not names:
+            return _Bases(bases)
+        where, name = names[-1]
         path = find_deck(current, name)
         if path is None:
-            why, refused = _missing(current, name)
-            return _Bases(bases, why, is_own=not bases, is_refused=refused)
+            return _Bases(bases, fault=None if bases else _missing(current, name, where))
         if _identity(path) in seen:
             back = " -> ".join([*trail, path.name])
             message = f"LAST= leads back to a deck that is open already ({back}): choose the deck of the run before"
-            return _Bases(bases, message, is_own=path.name == trail[0])
+            return _Bases(bases, fault=Problem(REF015, message) if path.name == trail[0] else None)
         if len(bases) == MOST_CONTINUED:
-            return _Bases(bases, f"more than {MOST_CONTINUED} decks continue each other")
+            return _Bases(bases)
         base = read_base(path)
         if isinstance(base, str):
             why = without_text(base, path, deck.folder or path.parent)
-            return _Bases(bases, f"the deck that LAST= continues is not read: {why}; {_ADVICE}", is_own=not bases)
+            message = f"the deck that LAST= continues is not read: {why}; {_ADVICE}"
+            return _Bases(bases, fault=None if bases else Problem(REF015, message))
         seen.add(_identity(path))
         trail.append(path.name)
         bases.append(base)
         current = base.deck
-    return _Bases(bases)
+    return _Bases(bases, is_whole=True)
 
 
-def _missing(deck: Deck, name: str) -> tuple[str, bool]:
-    """Return the reason why the deck that LAST= names is not there, and True if it is refused."""
+def _missing(deck: Deck, name: str, where: Where) -> Problem:
+    """Return the problem of a LAST= whose deck is not there, or is refused."""
     names = candidate_names(deck, name)
     folder = deck.folder or Path()
     why, severity = not_found(folder, names[0])
     if severity is Severity.ERROR:
-        return why, True
+        return Problem(REF015, why, None, severity, where)
     looked = f"looked in {folder.as_posix() if deck.folder else ''} for {', '.join(names)}"
-    return f"the deck {shown(names[0])} was not found ({looked}): {_ADVICE}", False
+    return Problem(REF015, f"the deck {shown(names[0])} was not found ({looked}): {_ADVICE}", where=where)
 
 
 def _identity(path: Path) -> Path:
@@ -181,8 +170,7 @@ def _read_base(path: Path, _version: tuple[int, ...]) -> Base | str:
 def candidate_names(deck: Deck, written: str) -> list[str]:
     """Return the possible names of a LAST=: as written, then with the deck's own suffix, then with other suffixes."""
     name = file_name(written)
-    own = PurePath(deck.file).suffix
-    return list(dict.fromkeys([name, *(name + suffix for suffix in (own, *SUFFIXES))]))
+    return list(dict.fromkeys([name, *(name + suffix for suffix in (PurePath(deck.file).suffix, *SUFFIXES))]))
 
 
 def find_deck(deck: Deck, written: str) -> Path | None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
 from enum import Enum
 from importlib.util import find_spec
 from pathlib import Path
@@ -22,16 +21,14 @@ from mudline.basics.outside import without_text
 from mudline.basics.short_repr import counted, short_repr
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.text import shown
-from mudline.language.syntax.source import Source
-from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed, heading
+from mudline.model.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed, heading
 from mudline.model.scene.context import Context
-from mudline.model.scene.data_files import number_of
+from mudline.model.scene.data_files import lines_of, number_of
 from mudline.model.scene.deck_values import file_name, find_file, number
 from mudline.model.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_surface import Plane, SeabedPlanes, SeabedProfile
-    from mudline.model.contact.seabed import Seabed
     from mudline.model.contact.seabed.profile import Interpolation
 
 
@@ -66,8 +63,7 @@ class SeabedPlane(NamedTuple):
     bounds: tuple[float, float, float, float]
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class SeabedShape:
+class SeabedShape(NamedTuple):
     """Seabed, angles in degrees, lengths in the deck's units.
 
     kind: form in which it is given.
@@ -85,14 +81,15 @@ class SeabedShape:
     slope: float = 0.0
     direction: float = 0.0
     interpolation: str = "LINEAR"
-    points: Floats = field(default_factory=lambda: _NO_POINTS)
+    points: Floats = _NO_POINTS
     planes: tuple[SeabedPlane, ...] = ()
     file: str = ""
     missing: str = ""
-    where: Where = field(default_factory=Where)
+    where: Where = Where()
     unreadable: tuple[tuple[Where, str], ...] = ()
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 def read_seabed(context: Context) -> SeabedShape:
@@ -110,7 +107,7 @@ def read_seabed(context: Context) -> SeabedShape:
     blocks = [(where, cast("SeabedPlanes", block)) for where, block in context.blocks("SEABED PLANES")]
     if planes := tuple(_plane(plane) for _, block in blocks for plane in block.planes):
         shape = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
-    return replace(shape, unreadable=tuple(unreadable)) if unreadable else shape
+    return shape._replace(unreadable=tuple(unreadable))
 
 
 def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: list[tuple[Where, str]]) -> SeabedShape:
@@ -174,17 +171,13 @@ def read_profile(path: Path, columns: int) -> Floats:
 
 def parse_profile(data: bytes, name: str, columns: int) -> Floats:
     """Return the points of a file's content, as `read_profile` does."""
-    source = Source.from_bytes(data, name)
-    if not source.readable:
-        raise ValueError(source.problems[0].message)
     expected = "Y, elevation" if columns == 2 else "X, Y, Z"
     rows: list[list[float]] = []
-    for at, line in enumerate(source.unified.split("\n"), 1):
-        if line.strip() and not line.startswith("C"):
-            words = _PARTS.split(line.strip(" \t\r\n,"))
-            if len(words) != columns:
-                raise ValueError(f"line {at}: expected {columns} numbers (`{expected}`), found {len(words)}")
-            rows.append([number_of(word, at) for word in words])
+    for at, line in lines_of(data, name):
+        words = _PARTS.split(line.strip(" \t\r\n,"))
+        if len(words) != columns:
+            raise ValueError(f"line {at}: expected {columns} numbers (`{expected}`), found {len(words)}")
+        rows.append([number_of(word, at) for word in words])
     if len(rows) < 2:
         raise ValueError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{expected}`")
     return np.array(rows, dtype=np.float64)

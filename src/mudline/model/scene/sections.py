@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from mudline.language.keywords.table import Table
     from mudline.model.scene.csv_file import ExternalElements
 
-_FORMATS = ("flexible", "rigid", "mooring", "truss")
-
 
 class Section(NamedTuple):
     """Entry of `*GEOMETRIC SETS`, or the part of a tapered joint that an element is.
@@ -72,6 +70,25 @@ class SectionTable(NamedTuple):
             return number(row, next(given, ""), default)
 
         return picked((first(section.entry.section) for section in self.sections), self.of_element)
+
+    def mass_per_length(self) -> Floats:
+        """Return mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
+        mass = picked((_mass(section.entry) for section in self.sections), self.of_element)
+        return np.where(mass > 0.0, mass, np.nan)
+
+    def submerged_weight(self, around: Surroundings, on_land: Floats | None) -> Floats:
+        """Return weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
+
+        The share `on_land` (m,) of an element has no buoyancy; None stands for 0. Contents do not count. Elements whose
+        diameter comes from a file of elements have the weight of their section, if they have one.
+        """
+        entries = [section.entry for section in self.sections]
+        weights = ((_mass(entry) - around.density * _displaced(entry)) * around.gravity for entry in entries)
+        found = picked(weights, self.of_element)
+        if on_land is not None:
+            lifts = (around.density * _displaced(entry) * around.gravity for entry in entries)
+            found = found + on_land * picked(lifts, self.of_element)
+        return np.where(np.isfinite(found), found, np.nan)
 
 
 def read_sections(
@@ -152,7 +169,7 @@ def _part(joint: TaperedJoint, share: float) -> GeometricSet:
 
 def format_of(entry: GeometricSet) -> str:
     """Return the format of the property line, "" without one."""
-    return next((name for name in _FORMATS if getattr(entry, name) is not None), "")
+    return next((name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None), "")
 
 
 class Surroundings(NamedTuple):
@@ -176,27 +193,6 @@ def read_surroundings(deck: Deck) -> Surroundings:
         number(oceans[-1], "gravity", DEFAULT_GRAVITY.get(deck.units, math.nan)),
         number(oceans[-1], "depth"),
     )
-
-
-def mass_per_length(table: SectionTable) -> Floats:
-    """Return mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
-    mass = picked((_mass(section.entry) for section in table.sections), table.of_element)
-    return np.where(mass > 0.0, mass, np.nan)
-
-
-def submerged_weight(table: SectionTable, around: Surroundings, on_land: Floats | None) -> Floats:
-    """Return weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
-
-    The share `on_land` (m,) of an element has no buoyancy; None stands for 0. Contents do not count. Elements whose
-    diameter comes from a file of elements have the weight of their section, if they have one.
-    """
-    entries = [section.entry for section in table.sections]
-    weights = ((_mass(entry) - around.density * _displaced(entry)) * around.gravity for entry in entries)
-    found = picked(weights, table.of_element)
-    if on_land is not None:
-        lifts = (around.density * _displaced(entry) * around.gravity for entry in entries)
-        found = found + on_land * picked(lifts, table.of_element)
-    return np.where(np.isfinite(found), found, np.nan)
 
 
 def weights(entry: GeometricSet, around: Surroundings) -> tuple[float, float]:

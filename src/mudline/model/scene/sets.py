@@ -23,14 +23,7 @@ from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import Indices, Numbered, distinct
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.mesh import (
-        ElementRange,
-        ElementSet,
-        ElementSets,
-        SetGenerate,
-        SetList,
-        SetSubset,
-    )
+    from mudline.language.keywords.library import mesh
     from mudline.language.keywords.model import Block
     from mudline.model.scene.csv_file import ExternalElements
 
@@ -104,9 +97,8 @@ class Sets:
     def check(self, name: str, where: Where) -> None:
         """Report a name at a place if no set has it."""
         if self.find(name) is None:
-            hint = self.context.hint(name, self.names)
             advice = advice_on(name) or "define it in *ELEMENT SETS"
-            message = f"set {shown(name)} is not defined{hint}: {advice}"
+            message = f"set {shown(name)} is not defined{self.context.hint(name, self.names)}: {advice}"
             self.context.report_missing(REF001, message, where, "ELEMENT SETS", name)
 
 
@@ -159,7 +151,7 @@ class _SetReader:
     def __init__(self, context: Context, elements: Numbered) -> None:
         self.context = context
         self.elements = elements
-        self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
+        self.definitions: dict[str, list[tuple[mesh.ElementSet, Where]]] = {}
         self.sets = Sets(context, elements)
 
     def read(self) -> Sets:
@@ -168,7 +160,7 @@ class _SetReader:
         everything = np.arange(len(self.elements), dtype=np.intp)
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
         for where, block in context.blocks("ELEMENT SETS"):
-            for index, entry in enumerate(cast("ElementSets", block).sets):
+            for index, entry in enumerate(cast("mesh.ElementSets", block).sets):
                 place = where.inside("sets", index)
                 name = known_name(entry.name)
                 if name is None:
@@ -209,7 +201,7 @@ class _SetReader:
             for index, member in enumerate(entry.members):
                 if member.rule != "set_subset":
                     continue
-                name = known_name(cast("SetSubset", member).subset)
+                name = known_name(cast("mesh.SetSubset", member).subset)
                 if name is None:
                     continue
                 subset = name_key(name)
@@ -241,15 +233,15 @@ class _SetReader:
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
-                    name = known_name(cast("SetSubset", member).subset)
+                    name = known_name(cast("mesh.SetSubset", member).subset)
                     set_ = None if name is None else self.sets.named.get(name_key(name))
                     whole = set_ is not None and not set_.open
                     parts.append(_NOTHING if set_ is None else set_.elements)
                 elif member.rule == "set_list":
-                    indices, whole = self._listed(cast("SetList", member), where.inside("members", index))
+                    indices, whole = self._listed(cast("mesh.SetList", member), where.inside("members", index))
                     listed.append(indices)
                 else:
-                    range_ = cast("SetGenerate", member).generate
+                    range_ = cast("mesh.SetGenerate", member).generate
                     indices, whole = self._range(range_, where.inside("members", index))
                     listed.append(indices)
                 unsure |= not whole
@@ -257,7 +249,7 @@ class _SetReader:
         if not members and not unsure:  # members that do not exist are reported at their place
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
-    def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
+    def _listed(self, member: mesh.SetList, where: Where) -> tuple[Indices, bool]:
         """Return indices of the elements of a list, and True if these are all."""
         numbered = [(element, at) for at, element in enumerate(member.elements) if isinstance(element, int)]
         indices = self.elements.indices(np.array([number for number, _ in numbered], dtype=np.int64))
@@ -275,7 +267,7 @@ class _SetReader:
         found = indices[indices >= 0]
         return found, len(found) == len(member.elements) and not is_partly_unknown(member.elements)
 
-    def _range(self, range_: ElementRange, where: Where) -> tuple[Indices, bool]:
+    def _range(self, range_: mesh.ElementRange, where: Where) -> tuple[Indices, bool]:
         """Return the elements of a range, without building it: a typing error may make it very long."""
         place = where.inside("generate")
         numbers = self.context.generator(range_)

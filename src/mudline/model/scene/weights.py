@@ -68,8 +68,7 @@ def contents(scene: ResolvedDeck) -> list[PipeContents]:
 def contents_case(scene: ResolvedDeck) -> int | None:
     """Return the number of the load case whose contents the weights have; None if all load cases have the same."""
     filled = contents(scene)
-    differ = any((case.density != filled[-1].density).any() for case in filled)
-    return filled[-1].number if differ else None
+    return filled[-1].number if any((case.density != filled[-1].density).any() for case in filled) else None
 
 
 class Attached(NamedTuple):
@@ -101,23 +100,15 @@ def _masses(scene: ResolvedDeck) -> Iterator[tuple[PointMass, int | None]]:
                 yield mass, int(known) if known >= 0 else None
 
 
-def operating_weight(scene: ResolvedDeck) -> Floats:
+def operating_weight(scene: ResolvedDeck, *, filled: bool = True) -> Floats:
     """Return submerged weight per length (m,) with the contents of the last load case and with masses at nodes.
 
-    It is in the deck's units; NaN where it is not known.
+    Without contents if not `filled`: a valve stays on an empty line. It is in the deck's units; NaN where it is not
+    known.
     """
-    return _with_masses(scene, contents(scene)[-1:])
-
-
-def empty_weight(scene: ResolvedDeck) -> Floats:
-    """Return the same without contents, but with masses at nodes: a valve stays on an empty line."""
-    return _with_masses(scene, [])
-
-
-def _with_masses(scene: ResolvedDeck, cases: list[PipeContents]) -> Floats:
     mass = attached(scene).weighing
-    for filled in cases:
-        mass = mass + filled.mass
+    for case in contents(scene)[-1:] if filled else ():
+        mass = mass + case.mass
     with np.errstate(over="ignore", invalid="ignore"):
         return scene.submerged_weight + mass * scene.surroundings.gravity if mass.any() else scene.submerged_weight
 

@@ -33,8 +33,7 @@ def opened_workbook(stream: BinaryIO, file: str, *, formulas: bool = False) -> I
             unpacked = sum(part.file_size for part in archive.infolist())
         if unpacked > LARGEST_FILE:
             raise data_error(file, f"unpacks to more than {LARGEST_FILE} bytes: export the sheet as CSV")
-        book = load_workbook(stream, read_only=True, data_only=not formulas)
-        yield book
+        yield load_workbook(stream, read_only=True, data_only=not formulas)
     except DeckError:
         raise
     except (*DAMAGED, OSError, InvalidFileException) as error:

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity
 from mudline.model.contact.input import LawKind
+from mudline.model.contact.laws import Parameter
+from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.laws import Extension, rule_of_extension
-from mudline.model.scene.numbering import Mask
+from mudline.model.scene.numbering import Mask, marked
+from mudline.model.scene.resolved import ResolvedDeck
 from mudline.model.scene.rules.fields import lacks_diameter
-
-if TYPE_CHECKING:
-    from mudline.model.contact.laws import Parameter
-    from mudline.model.scene.curves import SceneCurve
-    from mudline.model.scene.resolved import ResolvedDeck
-
 
 EXT004 = Code("EXT004", "bad-cutoff", Severity.ERROR)
 EXT005 = Code("EXT005", "suction-incomplete", Severity.ERROR)
@@ -53,8 +49,7 @@ def bad_cutoff(_: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
     Finds: 9:2
     """
     for entry, where in zip(extension.entries, extension.places, strict=True):
-        cutoff = getattr(entry, "cutoff", None)
-        corners = [number(cutoff, name) for name in ("first", "second")]
+        corners = [number(getattr(entry, "cutoff", None), name) for name in ("first", "second")]
         known = [corner for corner in corners if np.isfinite(corner)]
         if any(not _LOWEST <= corner <= _HIGHEST for corner in known) or known != sorted(known):
             message = f"corners {', '.join(map(repr, known))}: they must be 0.01 <= first <= second <= 0.99"
@@ -119,7 +114,9 @@ def suction_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Prob
     Finds: 19:6
     """
     springs = (scene.resistance.column("suction") > 0.0) & (scene.law != LawKind.RIGID)
-    listed, extrapolated = (_on_curves(scene, pulls) for pulls in (_lists_pull, _may_pull))
+    curves = [entry for entry in scene.laws.curves if entry.curve is not None]
+    index = scene.law_arrays().curve_index
+    listed, extrapolated = (marked(map(pulls, curves), index) for pulls in (_lists_pull, _may_pull))
     for _, where, held in extension.blocks():
         place = where.inside("set")
         words = "SUCTION= of the seabed too: remove one of the two"
@@ -136,14 +133,6 @@ def suction_conflict(scene: ResolvedDeck, extension: Extension) -> Iterator[Prob
         )
         problem = Problem(EXT006, words, None, Severity.WARNING, place)
         yield from of_elements(scene, held & extrapolated & ~listed, problem)
-
-
-def _on_curves(scene: ResolvedDeck, pulls: Callable[[SceneCurve], bool]) -> Mask:
-    """Return a mask (m,) of the elements whose curve fulfils a condition."""
-    flags = [entry.curve is not None and pulls(entry) for entry in scene.laws.curves]
-    of_law = [set_law.curve >= 0 and flags[set_law.curve] for set_law in scene.laws.set_laws]
-    mask: Mask = np.array([*of_law, False])[scene.laws.of_element] & (scene.law == LawKind.CURVE)
-    return mask
 
 
 def _lists_pull(entry: SceneCurve) -> bool:

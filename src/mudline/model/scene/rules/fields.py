@@ -114,8 +114,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     reading = scene.context
     embedment = any(curve.embedment for curve in scene.laws.curves) or "EMBEDMENT" in reading.unread
     for where, block in scene.context.blocks("ELASTIC SURFACE"):
-        properties = cast("ElasticSurface", block).properties
-        lacking = getattr(properties, "stiffness", None) is None
+        lacking = getattr(cast("ElasticSurface", block).properties, "stiffness", None) is None
         if lacking and not embedment:
             message = "no stiffness here and no *EMBEDMENT in the model: nothing carries the elements; give a stiffness"
             yield reading.missing(SBD004, message, where, "EMBEDMENT")

@@ -18,7 +18,6 @@ from mudline.model.scene.rules.seabed import extends_rigid
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_lateral import FrictionSet, TrenchSet
-    from mudline.model.contact.input import LawAssignment
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -26,9 +25,6 @@ EXT003 = Code("EXT003", "bad-trench", Severity.ERROR)
 
 _KEYWORD = "SEABED TRENCH"
 _SIZES = ("depth", "bottom_width", "upper_width")
-_LEAST_ROWS = 2
-_FIELDS = 2
-"""Number of fields in a row of a table; a shorter row cannot be read."""
 _LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks itself"
 _HIDDEN = "; sets or lines that this deck does not show may give them another friction"
 
@@ -75,7 +71,9 @@ def bad_trench(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
 
 def _of_friction(scene: ResolvedDeck, message: str, where: Where) -> Problem:
     """Return a problem of the friction of elements: a warning if the deck may not show all of their friction."""
-    if _uncertain(scene):
+    friction = scene.extensions.get("SEABED FRICTION")
+    hidden = friction is not None and any(held is None or held.open for held in friction.sets)
+    if hidden or scene.laws.uncertain or scene.context.restart:
         return Problem(EXT003, message + _HIDDEN, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
     return Problem(EXT003, message, where=where)
 
@@ -86,7 +84,8 @@ def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
     faults = [*_resistance_faults(entry)] if entry.model != "WALL" else []
-    unread = is_partly_unknown(entry) or (entry.table is not None and entry.table.values.shape[1] < _FIELDS)
+    short = entry.table is not None and entry.table.values.shape[1] < 2  # rows without a resistance cannot be read
+    unread = is_partly_unknown(entry) or short
     for path, message in faults or (() if unread else _excess_faults(entry)):
         yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
@@ -106,7 +105,7 @@ def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...]
     if entry.peak != "TABLE":
         return
     offsets = np.zeros(0) if entry.table is None else entry.table.column(0)
-    if len(offsets) < _LEAST_ROWS:
+    if len(offsets) < 2:
         yield ("peak",), "PEAK=TABLE needs two rows or more: offset from the centreline, resistance per unit length"
     if (offsets[:1] < 0.0).any():
         yield ("table", 0, 0), "the offset from the centreline is negative: it is a distance, the same on both sides"
@@ -120,25 +119,17 @@ def _excess_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], st
     from mudline.model.scene.assignments import resistance_diagram  # noqa: PLC0415 - as above
 
     if entry.model == "WALL":
-        for name, present in (
-            ("level", entry.level == "LOWERED"),
-            ("residual", entry.residual),
-            ("smoothing", entry.smoothing),
-        ):
-            if present:
-                yield (
-                    (name,),
-                    f"MODEL=WALL has sloped walls, which {name.upper()}= does not go with: remove one of the two",
-                )
+        given = {"level": entry.level == "LOWERED", "residual": entry.residual, "smoothing": entry.smoothing}
+        for name in (name for name, value in given.items() if value):
+            message = f"MODEL=WALL has sloped walls, which {name.upper()}= does not go with: remove one of the two"
+            yield (name,), message
         return
     middle = 0.25 * (number(entry.geometry, "bottom_width") + number(entry.geometry, "upper_width"))
     if entry.residual is not None and entry.peak == "TABLE":
         yield ("residual",), "a table has a residual of its own: remove RESIDUAL=, or add its row"
     elif number(entry.residual, "displacement") <= middle:
-        yield (
-            ("residual",),
-            f"the residual is reached no later than the peak, at {middle:g}: give a larger displacement",
-        )
+        message = f"the residual is reached no later than the peak, at {middle:g}: give a larger displacement"
+        yield ("residual",), message
     elif number(entry, "smoothing", 0.0) > max(0.5 * (side := shortest_side(resistance_diagram(entry))), 0.0):
         yield ("smoothing",), f"SMOOTHING= is above half of the shortest side of the resistance, {side:g}: give less"
 
@@ -150,9 +141,14 @@ def _without_spring(scene: ResolvedDeck, trenches: Extension) -> tuple[Mask, Mas
         return nothing, nothing
     from mudline.model.scene.contact_input import friction_of  # noqa: PLC0415 - a deck without trenches does without it
 
-    friction = friction_of(scene)
-    bare: Mask = (trenches.of_element >= 0) & ~_sprung(scene, friction)
-    return bare, _self_locking(scene, trenches, friction)
+    friction, count = friction_of(scene), len(scene.node_ids)
+    sprung, coefficient = np.zeros(count, dtype=np.bool_), np.zeros(count)
+    if friction is not None:
+        coefficient[friction.rows] = friction.parameters["lateral_coefficient"]
+        stiffness = np.asarray(friction.parameters["lateral_stiffness"])
+        sprung[friction.rows] = ~np.isnan(stiffness) | (coefficient[friction.rows] > 0.0)
+    bare: Mask = (trenches.of_element >= 0) & ~sprung[scene.element_nodes].all(axis=1)
+    return bare, _self_locking(scene, trenches, coefficient)
 
 
 def _unread(scene: ResolvedDeck) -> bool:
@@ -164,32 +160,13 @@ def _unread(scene: ResolvedDeck) -> bool:
     return any(is_partly_unknown(scene.context.as_written(place)) for place in places)
 
 
-def _uncertain(scene: ResolvedDeck) -> bool:
-    """Return True if some friction may come from lines, sets or a deck that this deck does not show."""
-    friction = scene.extensions.get("SEABED FRICTION")
-    if friction is not None and any(held is None or held.open for held in friction.sets):
-        return True
-    return scene.laws.uncertain or scene.context.restart
+def _self_locking(scene: ResolvedDeck, trenches: Extension, coefficient: Floats) -> Mask:
+    """Return a mask (m,) of the elements in a trench with sloped walls where a node has mu2 tan(theta) >= 1.
 
-
-def _sprung(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
-    """Return a mask (m,) of the elements whose two nodes have a lateral friction spring."""
-    sprung = np.zeros(len(scene.node_ids), dtype=np.bool_)
-    if friction is not None:
-        stiffness = np.asarray(friction.parameters["lateral_stiffness"])
-        coefficient = np.asarray(friction.parameters["lateral_coefficient"])
-        sprung[friction.rows] = ~np.isnan(stiffness) | (coefficient > 0.0)
-    both_ends: Mask = np.logical_and(*sprung[scene.element_nodes].T)
-    return both_ends
-
-
-def _self_locking(scene: ResolvedDeck, trenches: Extension, friction: LawAssignment | None) -> Mask:
-    """Return a mask (m,) of the elements in a trench with sloped walls where a node has mu2 tan(theta) >= 1."""
+    `coefficient` (n,) is mu2 of each node.
+    """
     from mudline.model.contact.laws.trench import wall_coefficient  # noqa: PLC0415 - as above
 
-    coefficient: Floats = np.zeros(len(scene.node_ids))
-    if friction is not None:
-        coefficient[friction.rows] = np.asarray(friction.parameters["lateral_coefficient"])
     depth, bottom, upper = (trenches.values(trenches.of_element, "geometry", name) for name in _SIZES)
     locking: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for end in scene.element_nodes.T:

@@ -54,10 +54,9 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types and not extends_rigid(scene) else ()
     for where, properties, type_ in blocks:
         for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
-            place = where.inside("sets", index)
             suction = entry.suction and entry.suction.stiffness
             for name, value in (("stiffness", entry.stiffness), ("lateral", entry.lateral), ("suction", suction)):
-                inner = place.inside(name)
+                inner = where.inside("sets", index, name)
                 if isinstance(value, str):
                     message = f"curve {shown(value)} on a rigid seabed: a force-embedment curve needs TYPE=ELASTIC"
                     yield Problem(SBD001, message, where=inner)
@@ -81,8 +80,6 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 7:7
     """
-    if len(scene.laws.types) < 2:
-        return
     places = sorted((where, name) for name, type_places in scene.laws.types.items() for where in type_places)
     where, name = next(((where, name) for where, name in places if name != places[0][1]), (Where(), ""))
     if not name:
@@ -359,13 +356,11 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     deck = scene.deck
     planes = [where for where, _ in scene.context.blocks("SEABED PLANES")]
-    if not planes:
-        return
     others = [where for where, _ in scene.context.blocks("SEABED PROFILE")]
     for where, surface in scene.context.surfaces:
         if surface.slope is not None or surface.profile is not None:
             others.append(where)
-    if others:
+    if planes and others:
         places = [place for place in (planes[0], min(others)) if place.section < len(deck.own_sections)]
         message = "the seabed is given by *SEABED PLANES and by a profile or slope too: remove one of them"
         yield Problem(EXT002, message, where=max(places, default=planes[0]))
@@ -429,8 +424,7 @@ def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
             name = folded(cast("str | None", plane.name) or "")
             if name and name in known:
                 message = f"plane {shown(plane.name)} is already defined: choose another name, or remove one of the two"
-                place = where.inside("planes", index, "name")
-                yield Problem(EXT007, message, None, Severity.WARNING, place)
+                yield Problem(EXT007, message, None, Severity.WARNING, where.inside("planes", index, "name"))
             known.add(name)
 
 
