@@ -223,8 +223,7 @@ def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
         | {"variations": list(deck.variations), "parameters": dict(deck.values)}
         for deck in decks
     ]
-    manifest = {"format": FORMAT, "source": source, "decks": listed}
-    return json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
+    return json.dumps({"format": FORMAT, "source": source, "decks": listed}, indent=1, ensure_ascii=False) + "\n"
 
 
 def conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> list[str]:

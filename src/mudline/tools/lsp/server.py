@@ -181,8 +181,7 @@ class DeckServer(LanguageServer):
         if get_capability(self.client_capabilities, "workspace.did_change_watched_files.dynamic_registration"):
             watchers = [types.FileSystemWatcher(f"**/{pattern}") for pattern in _WATCHED]
             options = types.DidChangeWatchedFilesRegistrationOptions(watchers)
-            method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
-            registration = types.Registration("mudline.watch", method, options)
+            registration = types.Registration("mudline.watch", types.WORKSPACE_DID_CHANGE_WATCHED_FILES, options)
             self.client_register_capability(types.RegistrationParams([registration]))
 
     # --------------------------------------------------------------------------------------------------- checks
