@@ -8,6 +8,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import accumulate
 from pathlib import Path
 from typing import cast
 
@@ -77,8 +78,7 @@ class Taken:
         """Reserve a path for a number; return the number that uses it already as file or folder, else None."""
         # some systems confuse paths that differ in case or in Unicode composition
         place = unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())
-        parts = place.split("/")
-        folders = ["/".join(parts[:length]) for length in range(1, len(parts))]
+        folders = list(accumulate(place.split("/")[:-1], "{}/{}".format))
         taken = [self._files[name] for name in (place, *folders) if name in self._files]
         holder = taken[0] if taken else self._folders.get(place)
         if holder is None:
