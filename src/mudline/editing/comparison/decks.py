@@ -23,7 +23,7 @@ from mudline.editing.comparison.comparing import (
     shown_points,
 )
 from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, plain
-from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.loading import load_path
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck
@@ -122,10 +122,7 @@ def compare_folders(
             continue
         names = old[name].as_posix(), new[name].as_posix()
         try:
-            first, second = (
-                load_bytes(path.read_bytes(), path.as_posix(), units=units, folder=path.parent)
-                for path in (old[name], new[name])
-            )
+            first, second = (load_path(path, units=units) for path in (old[name], new[name]))
             compared = compare_decks(first, second, tolerance, strict=strict)
         except DeckError as error:
             yield ComparedDeck(name, DeckStatus.FAILED, *names, errors=error.diagnostics)

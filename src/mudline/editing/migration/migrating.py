@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -33,8 +33,7 @@ from mudline.model.scene.representatives import representatives, shows_elements
 from mudline.model.scene.seabed import parse_profile
 
 
-@dataclass(frozen=True, slots=True)
-class Migration:
+class Migration(NamedTuple):
     """A migrated deck.
 
     Attributes:
@@ -50,8 +49,8 @@ class Migration:
     after: Scene
     deck: Deck
     content: bytes
-    files: dict[str, bytes] = field(default_factory=dict)
-    replaced: Counter[str] = field(default_factory=Counter)
+    files: dict[str, bytes]
+    replaced: Counter[str]
 
 
 def legacy_blocks(deck: Deck) -> Counter[str]:
@@ -129,8 +128,7 @@ class MigrationDifference(NamedTuple):
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Verification:
+class Verification(NamedTuple):
     """Result of a verification.
 
     Attributes:
