@@ -16,13 +16,14 @@ from mudline.editing.comparison.comparing import (
     Values,
     compare,
     follow_differently,
+    law_values,
     laws_followed,
     numbers_given,
     resistance_followed,
     seabed_points,
     shown_points,
 )
-from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, plain
+from mudline.editing.comparison.model import Allowance, Difference, Pair, Side
 from mudline.language.deck.loading import load_path
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
@@ -197,14 +198,9 @@ def _of_elements(pair: Pair, names: Mapping[int, str] | None = None) -> Iterator
 
 def _law(scene: Scene, law: SetLaw) -> Values:
     """Return a law by its effect: neither the name of a curve nor the keyword counts."""
-    match law.kind:
-        case LawKind.CURVE if law.curve >= 0:
-            return {"": "curve", "points": shown_points(scene.laws.curves[law.curve])}
-        case LawKind.LINEAR:
-            return {"": "linear", "stiffness": plain(law.stiffness)}
-        case LawKind.NONE:
-            return {}
-    return {"": scene.law_name(law)}
+    if law.kind is LawKind.CURVE and law.curve >= 0:
+        return {"": "curve", "points": shown_points(scene.laws.curves[law.curve])}
+    return law_values(scene, law)
 
 
 def _values(given: ResistanceValues, units: str) -> Values:
