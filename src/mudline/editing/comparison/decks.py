@@ -217,11 +217,9 @@ def _values(given: ResistanceValues, units: str) -> Values:
 def _seabed(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of the shape of the seabed, from any keyword."""
     old, new = pair.before.scene.seabed, pair.after.scene.seabed
-    given = [("kind", old.kind.value, new.kind.value), ("slope", old.slope, new.slope)]
-    given += [("direction", old.direction, new.direction), ("interpolation", old.interpolation, new.interpolation)]
-    if old.missing or new.missing:
-        given.append(("file", old.file, new.file))
-    for name, before, after in given:
+    names = ["slope", "direction", "interpolation", *(["file"] if old.missing or new.missing else [])]
+    given = [(name, getattr(old, name), getattr(new, name)) for name in names]
+    for name, before, after in [("kind", old.kind.value, new.kind.value), *given]:
         if not pair.tolerance.values(before, after):
             yield pair.difference("seabed", f"seabed/{name}", (before, old.where), (after, new.where))
     yield from seabed_points(pair)

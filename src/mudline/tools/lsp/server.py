@@ -270,7 +270,7 @@ _OPTIONS = {types.TEXT_DOCUMENT_RENAME: types.RenameOptions(prepare_provider=Tru
 def register(server: DeckServer) -> None:
     """Register every request that is answered."""
     server.feature(types.INITIALIZED)(lambda _: server.watch_files())
-    server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)(lambda told: server.files_changed(told.changes))
+    server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)(lambda given: server.files_changed(given.changes))
     _fixes(server)
     _completion(server)
     for method, (ask, nothing) in _ANSWERS.items():
