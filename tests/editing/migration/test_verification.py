@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
 from mudline.editing.migration.migrating import Migration, migrate, verify
@@ -22,7 +20,7 @@ def tampered(old: str, new: str, *, text: str = SAMPLE) -> Migration:
     content = found.content.decode()
     assert old in content
     changed = load_bytes(content.replace(old, new).encode(), "deck.keyxm")
-    return replace(found, after=resolve(changed), content=content.replace(old, new).encode())
+    return found._replace(after=resolve(changed), content=content.replace(old, new).encode())
 
 
 @pytest.mark.parametrize(
@@ -94,7 +92,7 @@ def test_a_changed_profile_counts() -> None:
     found = migrate(deck_of(PIPE_WITH_SETS + "*RIGID SURFACE\n 0.3\n 100.0, 30.0\n 0.0, 0.0\n"))
     assert verify(found).differences == ()
     ((name, data),) = found.files.items()
-    changed = replace(found, files={name: data.replace(b"30.0", b"30.000000000000004")})
+    changed = found._replace(files={name: data.replace(b"30.0", b"30.000000000000004")})
     assert [difference.what for difference in verify(changed).differences] == ["seabed"]
 
 

@@ -7,6 +7,7 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 
 from mudline.editing.formatting.document import formatted
+from mudline.language.deck.loading import dump, load_bytes
 from mudline.tools.lsp.structure import LEGEND
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 from tests.tools.lsp.editor import Editor, applied, document
@@ -32,6 +33,17 @@ async def test_the_outline_has_sections_keywords_and_names(editor: Editor) -> No
     node = blocks["*NODE"]
     assert (node.range.start.line, node.range.end.line) == (7, 10)
     assert node.selection_range == types.Range(types.Position(7, 0), types.Position(7, 5))
+
+
+async def test_a_deck_in_json_has_no_places(editor: Editor) -> None:
+    """It is read as the keyword text that it becomes, whose places are not those of the file."""
+    uri = await editor.open(dump(load_bytes(CLEAN.encode(), "deck.keyxm"), "json"), "deck.json")
+    assert await editor.client.text_document_document_symbol_async(types.DocumentSymbolParams(document(uri))) == []
+    at = types.Position(1, 1)
+    assert await editor.client.text_document_hover_async(types.HoverParams(document(uri), at)) is None
+    offered = await editor.client.text_document_completion_async(types.CompletionParams(document(uri), at))
+    assert isinstance(offered, types.CompletionList)
+    assert not offered.items
 
 
 async def test_sections_blocks_and_comments_fold(editor: Editor) -> None:

@@ -74,10 +74,10 @@ class _Flattening:
         flat: Flat = {}
         carried: dict[str, ComparedValue] = {}
         for where, block in blocks:
-            lists = [slot for slot in record_schema(type(block)).slots if _is_keyed(slot)]
+            keyed = next(filter(_is_keyed, record_schema(type(block)).slots), None)
             own: Flat = {}
-            self.part(block, where, "", own, leave_out=lists[0].name if lists else "")
-            if not lists:  # the values of a second block get its number
+            self.part(block, where, "", own, leave_out=keyed.name if keyed else "")
+            if keyed is None:  # the values of a second block get its number
                 count = self.counts[""] = self.counts.get("", 0) + 1
                 flat |= own if count == 1 else {f"#{count}/{path}": entry for path, entry in own.items()}
                 continue
@@ -85,8 +85,7 @@ class _Flattening:
                 path = name.rstrip("_")
                 carried |= {path: own[path]} if path in own else {}
                 own = {**carried, **own}
-            slot = lists[0]
-            self._records(getattr(block, slot.name) or [], where, slot, "", flat, own)
+            self._records(getattr(block, keyed.name) or [], where, keyed, "", flat, own)
         return flat
 
     def part(self, part: Part, where: Where, prefix: str, flat: Flat, leave_out: str = "") -> None:

@@ -284,7 +284,7 @@ def _by_element(pair: Pair) -> Iterator[Difference]:
     If the elements have the same record in both decks, or a record in one deck only, the difference of the record is
     reported instead.
     """
-    yield from follow_differently("laws", partial(laws_followed, describe=_law), pair)
+    yield from follow_differently("laws", partial(laws_followed, describe=law_values), pair)
     yield from follow_differently("sections", _sections, pair)
     numbers = partial(resistance_followed, describe=lambda values, _: numbers_given(values._asdict()))
     yield from follow_differently("bed", numbers, pair)
@@ -339,10 +339,11 @@ def laws_followed(side: Side, describe: Callable[[Scene, SetLaw], Values]) -> En
     return EntryMap(entries, [law.where for law in laws.set_laws], laws.of_element)
 
 
-def _law(scene: Scene, grant: SetLaw) -> Values:
-    if grant.kind is LawKind.LINEAR:
-        return {"": "linear", "stiffness": plain(grant.stiffness)}
-    return {} if grant.kind is LawKind.NONE else {"": scene.law_name(grant)}
+def law_values(scene: Scene, law: SetLaw) -> Values:
+    """Return the stiffness of a linear law, else the name of a law."""
+    if law.kind is LawKind.LINEAR:
+        return {"": "linear", "stiffness": plain(law.stiffness)}
+    return {} if law.kind is LawKind.NONE else {"": scene.law_name(law)}
 
 
 def _sections(side: Side) -> EntryMap:

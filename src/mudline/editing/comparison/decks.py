@@ -17,14 +17,15 @@ from mudline.editing.comparison.comparing import (
     Values,
     compare,
     follow_differently,
+    law_values,
     laws_followed,
     numbers_given,
     resistance_followed,
     seabed_points,
     shown_points,
 )
-from mudline.editing.comparison.model import Allowance, Difference, Pair, Side, plain
-from mudline.language.deck.loading import load_bytes
+from mudline.editing.comparison.model import Allowance, Difference, Pair, Side
+from mudline.language.deck.loading import load_path
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck
@@ -123,10 +124,7 @@ def compare_folders(
             continue
         names = old[name].as_posix(), new[name].as_posix()
         try:
-            first, second = (
-                load_bytes(path.read_bytes(), path.as_posix(), units=units, folder=path.parent)
-                for path in (old[name], new[name])
-            )
+            first, second = (load_path(path, units=units) for path in (old[name], new[name]))
             compared = compare_decks(first, second, tolerance, strict=strict)
         except DeckError as error:
             yield ComparedDeck(name, DeckStatus.FAILED, *names, errors=error.diagnostics)
@@ -201,14 +199,9 @@ def _of_elements(pair: Pair, names: Mapping[int, str] | None = None) -> Iterator
 
 def _law(scene: Scene, law: SetLaw) -> Values:
     """Return a law by its effect: neither the name of a curve nor the keyword counts."""
-    match law.kind:
-        case LawKind.CURVE if law.curve >= 0:
-            return {"": "curve", "points": shown_points(scene.laws.curves[law.curve])}
-        case LawKind.LINEAR:
-            return {"": "linear", "stiffness": plain(law.stiffness)}
-        case LawKind.NONE:
-            return {}
-    return {"": scene.law_name(law)}
+    if law.kind is LawKind.CURVE and law.curve >= 0:
+        return {"": "curve", "points": shown_points(scene.laws.curves[law.curve])}
+    return law_values(scene, law)
 
 
 def _values(given: ResistanceValues, units: str) -> Values:
@@ -225,11 +218,9 @@ def _values(given: ResistanceValues, units: str) -> Values:
 def _seabed(pair: Pair) -> Iterator[Difference]:
     """Yield the differences of the shape of the seabed, from any keyword."""
     old, new = pair.before.scene.seabed, pair.after.scene.seabed
-    given = [("kind", old.kind.value, new.kind.value), ("slope", old.slope, new.slope)]
-    given += [("direction", old.direction, new.direction), ("interpolation", old.interpolation, new.interpolation)]
-    if old.missing or new.missing:
-        given.append(("file", old.file, new.file))
-    for name, before, after in given:
+    names = ["slope", "direction", "interpolation", *(["file"] if old.missing or new.missing else [])]
+    given = [(name, getattr(old, name), getattr(new, name)) for name in names]
+    for name, before, after in [("kind", old.kind.value, new.kind.value), *given]:
         if not pair.tolerance.values(before, after):
             yield pair.difference("seabed", f"seabed/{name}", (before, old.where), (after, new.where))
     yield from seabed_points(pair)

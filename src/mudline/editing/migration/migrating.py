@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -32,8 +32,7 @@ from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.seabed import parse_profile
 
 
-@dataclass(frozen=True, slots=True)
-class Migration:
+class Migration(NamedTuple):
     """A migrated deck.
 
     Attributes:
@@ -49,8 +48,8 @@ class Migration:
     after: Scene
     deck: Deck
     content: bytes
-    files: dict[str, bytes] = field(default_factory=dict)
-    replaced: Counter[str] = field(default_factory=Counter)
+    files: dict[str, bytes]
+    replaced: Counter[str]
 
 
 def legacy_blocks(deck: Deck) -> Counter[str]:
@@ -128,8 +127,7 @@ class MigrationDifference(NamedTuple):
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Verification:
+class Verification(NamedTuple):
     """Result of a verification.
 
     Attributes:

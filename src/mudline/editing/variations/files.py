@@ -8,6 +8,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import accumulate
 from pathlib import Path
 from typing import cast
 
@@ -77,8 +78,7 @@ class Taken:
         """Reserve a path for a number; return the number that uses it already as file or folder, else None."""
         # some systems confuse paths that differ in case or in Unicode composition
         place = unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())
-        parts = place.split("/")
-        folders = ["/".join(parts[:length]) for length in range(1, len(parts))]
+        folders = list(accumulate(place.split("/")[:-1], "{}/{}".format))
         taken = [self._files[name] for name in (place, *folders) if name in self._files]
         holder = taken[0] if taken else self._folders.get(place)
         if holder is None:
@@ -223,8 +223,7 @@ def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
         | {"variations": list(deck.variations), "parameters": dict(deck.values)}
         for deck in decks
     ]
-    manifest = {"format": FORMAT, "source": source, "decks": listed}
-    return json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
+    return json.dumps({"format": FORMAT, "source": source, "decks": listed}, indent=1, ensure_ascii=False) + "\n"
 
 
 def conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> list[str]:

@@ -229,8 +229,7 @@ class _Planner:
                 else:
                     known = (cases.name for cases in variations.values())
                     place = where.inside("variations", index, "names", number)
-                    problem = undefined_variation(name, known, self.effort, place)
-                    self.problems.append(replace(problem, code=EXP001))
+                    self.problems.append(replace(undefined_variation(name, known, self.effort, place), code=EXP001))
         return list((called if combination.variations else variations).values())
 
     def _is_valid(self, group: _CaseGroup) -> bool:

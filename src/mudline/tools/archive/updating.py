@@ -130,8 +130,7 @@ def _read(folder: Path) -> dict[str, Any]:
         path = folder / f"{name}.parquet"
         try:
             # pyarrow cannot open a path with a colon or an equals sign.
-            data = pa.BufferReader(path.read_bytes())
-            tables[name] = pq.ParquetFile(data, page_checksum_verification=True).read()
+            tables[name] = pq.ParquetFile(pa.BufferReader(path.read_bytes()), page_checksum_verification=True).read()
         except (OSError, ValueError) as error:
             what = f"{path.as_posix()} cannot be read: {str(error).splitlines()[0]}"
             raise ArchiveError(f"{what}: index the decks into a new folder") from error

@@ -239,8 +239,7 @@ def _report(model: LineModel, names: dict[Key, str]) -> None:
     report_stiffness(report, others, "SeabedNormalStiffness x D:", [per_area * each.diameter for each in others])
     report_friction(report, model.soils, "friction of line types", [(each.axial, each.lateral) for each in model.soils])
     if soil.kind is not LawKind.SOIL and soil.axial_spring != soil.lateral_spring:
-        springs = f"{kilo(soil.axial_spring)} along and {kilo(soil.lateral_spring)} across"
-        effect = f"the stiffer of {springs}"
+        effect = f"the stiffer of {kilo(soil.axial_spring)} along and {kilo(soil.lateral_spring)} across"
         report.add(soil.friction_at, Outcome.APPROXIMATED, "one SeabedShearStiffness", effect, "spring")
     report_resistance(report)
     for section in model.sections:

@@ -212,8 +212,7 @@ def report_governing(report: ExportReport, soils: list[ExportSoil], main: Export
     if carrying and max(carrying) > (1.0 + _SAME) * min(carrying):
         span = f"over the line {shown(min(carrying) / 1e3, 4)} to {kilo(max(carrying))}"
         effect = f"that of the elements {'around touchdown' if at_touchdown else 'most of the pipe rests on'}; {span}"
-        target = f"one stiffness, {kilo(main.stiffness)}"
-        report.add(main.where, Outcome.APPROXIMATED, target, effect, "range")
+        report.add(main.where, Outcome.APPROXIMATED, f"one stiffness, {kilo(main.stiffness)}", effect, "range")
 
 
 def report_stiffness(report: ExportReport, soils: list[ExportSoil], name: str, used: list[float]) -> None:

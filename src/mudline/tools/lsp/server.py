@@ -181,8 +181,7 @@ class DeckServer(LanguageServer):
         if get_capability(self.client_capabilities, "workspace.did_change_watched_files.dynamic_registration"):
             watchers = [types.FileSystemWatcher(f"**/{pattern}") for pattern in _WATCHED]
             options = types.DidChangeWatchedFilesRegistrationOptions(watchers)
-            method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
-            registration = types.Registration("mudline.watch", method, options)
+            registration = types.Registration("mudline.watch", types.WORKSPACE_DID_CHANGE_WATCHED_FILES, options)
             self.client_register_capability(types.RegistrationParams([registration]))
 
     # --------------------------------------------------------------------------------------------------- checks
@@ -271,7 +270,7 @@ _OPTIONS = {types.TEXT_DOCUMENT_RENAME: types.RenameOptions(prepare_provider=Tru
 def register(server: DeckServer) -> None:
     """Register every request that is answered."""
     server.feature(types.INITIALIZED)(lambda _: server.watch_files())
-    server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)(lambda told: server.files_changed(told.changes))
+    server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)(lambda given: server.files_changed(given.changes))
     _fixes(server)
     _completion(server)
     for method, (ask, nothing) in _ANSWERS.items():

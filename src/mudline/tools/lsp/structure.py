@@ -1,4 +1,4 @@
-"""What an editor shows of a deck besides its text: colours, outline and folding ranges; and its canonical layout."""
+"""Colours, outline and folding ranges of a deck, and its canonical layout."""
 
 from __future__ import annotations
 

@@ -135,8 +135,7 @@ def rest_shape(scene: Scene) -> RestShape:
     if not shaped:
         why = refused[0][1] if refused else "the deck has no line"
         raise scene.refusal(f"no resting shape: {why}; give a solved shape with --positions")
-    present = np.isfinite(values).all(axis=1)
-    return RestShape(Positions(values[np.newaxis], present, None), shaped, refused)
+    return RestShape(Positions(values[np.newaxis], np.isfinite(values).all(axis=1), None), shaped, refused)
 
 
 def lines_at_rest(scene: Scene, given: ContactInput, pipe: Pipe) -> tuple[list[LineAtRest], list[tuple[int, str]]]:

@@ -9,6 +9,7 @@ import numpy as np
 from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.quantities import shown, unit_names
 from mudline.basics.short_repr import cut
+from mudline.language.keywords.format import unit_text
 from mudline.model.results.stage_times import StageRow
 from mudline.model.results.summary_tables import weight_note
 from mudline.model.scene.load_case import in_words
@@ -21,7 +22,6 @@ LIMITS = "One plane, small slopes, constant tension; loads are those of this mod
 _NAME, _WHY = 44, 90
 """Columns of a case, and of the reason of a stage, which is wrapped."""
 _DIGITS = 3
-_MASS = {"metric": "kg/m", "imperial": "slug/ft"}
 _KILO = 1e3
 _CONSISTENT = "With the resistance integrated along each element the verdict is"
 
@@ -41,7 +41,7 @@ def description(result: Study) -> str:
     masses = float(zone.pipe.mass[zone.own]), float(zone.pipe.contents[zone.own]), float(zone.pipe.added_mass[zone.own])
     named = zip(("pipe", "contents", "water"), masses, strict=True)
     parts = ", ".join(f"{name} {_short(mass)}" for name, mass in named)
-    mass_unit = f" {_MASS[result.units]}" if result.units in _MASS else ""
+    mass_unit = "" if result.units == "user" else f" {unit_text('M/L', result.units)}"
     reference = "" if result.reference is None else f" Errors against {result.milliseconds(result.reference.step)}."
     assumed = "" if zone.pipe.has_coefficients[zone.own] else " (Cd and Ca 1, assumed)"
     return (
