@@ -50,7 +50,7 @@ PACKAGES = {
     ),
     "editing/migration": (("editing/migration",), ["tests/editing/migration"]),
     "keywords": (
-        ("language/keywords/builder", "language/keywords/values", "checks/recovery", "checks/joining"),
+        ("language/keywords/builder", "language/keywords/values", "checks/recovery", "checks/engine"),
         ["tests/language/keywords", *(f"tests/checks/test_{name}.py" for name in ("joining", *_RECOVERY))],
     ),
 }
