@@ -208,8 +208,7 @@ def _print_totals(printer: Printer, evaluation: Evaluation, result: ContactResul
         sums = {name: sum(each[name] for each in rows) for name in ("elements", "touching")}
         deepest = max((each["deepest"] for each in rows if each["deepest"] is not None), default=None)
         rows.append({"law": "total", "set_name": "", **sums, "deepest": deepest, "reaction": known})
-    names = unit_names(evaluation.scene.units)
-    printer.table(law_table(_title(evaluation), rows, names, "total\nreaction"))
+    printer.table(law_table(_title(evaluation), rows, unit_names(evaluation.scene.units), "total\nreaction"))
 
 
 def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cells, float, bool]]:
