@@ -10,7 +10,7 @@ import numpy as np
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
 from mudline.basics.quantities import UnitNames, shown, unit_names
-from mudline.model.contact.columns import ResultColumn
+from mudline.model.contact.columns import ResultColumn, coded
 from mudline.model.results.forms import ResultTables
 from mudline.model.scene.sheet import Sheet
 
@@ -175,8 +175,6 @@ def sheet_data(sheet: Sheet, units: str) -> ResultTables:
 
 def _data(key: str, column: DisplayColumn, values: list[Any]) -> ResultColumn:
     if column.left:
-        names = tuple(dict.fromkeys(value for value in values if value is not None))
-        codes = [-1 if value is None else names.index(value) for value in values]
-        return ResultColumn(key, np.array(codes, np.int32), (*names, None))
+        return ResultColumn(key, *coded(values))
     dtype = np.int64 if key in {"first_element", "last_element", "elements"} else np.float64  # None becomes NaN
     return ResultColumn(key, np.array(values, dtype), unit=column.unit)
