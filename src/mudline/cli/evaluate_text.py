@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from functools import partial
 from itertools import islice, pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
+from mudline.basics.display import DisplayColumn, DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import LINES, STEPS, UnitNames, shown, time_unit, unit_names
+from mudline.basics.quantities import LINES, STEPS, shown, time_unit, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli.view import View
 from mudline.model.contact import ContactResult, Plan
@@ -298,7 +297,6 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
     """Print touchdown, largest forces, reaction and weight of lines, a row for each line and step."""
     evaluation, rows = screen.evaluation, screen.lines
     names = unit_names(evaluation.scene.units)
-    pulled = any(row.largest_uplift is not None for row in rows)
     filled = any(row.submerged_weight != row.empty_weight for row in rows)
     columns = [
         *([] if evaluation.time is None else [_time(evaluation, "time")]),
@@ -306,8 +304,10 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
         text("elements", lambda row: _span(row.first_element, row.last_element)),
         number("touchdown\nat", _touchdown, names.length),
         number("length in\ncontact", "contact_length", names.length),
-        *_largest("force", "largest_force", names),
-        *(_largest("uplift", "largest_uplift", names) if pulled else ()),
+        number("largest\nforce", "largest_force.force", names.line_force),
+        number("element", "largest_force.element"),
+        number("largest\nuplift", "largest_uplift.force", names.line_force, optional=True),
+        number("element", "largest_uplift.element", optional=True),
         number("total\nreaction", "reaction", names.force, missing=NOT_KNOWN),
         number("submerged\nweight", "submerged_weight", names.force),
         *([number("weight,\nempty", "empty_weight", names.force)] if filled else []),
@@ -320,17 +320,6 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
             weight_note(evaluation.weights_without, evaluation.contents_case),
         ]
         printer.table(DisplayTable("Touchdown", columns, rows, "; ".join(filter(None, notes))))
-
-
-def _largest(what: str, name: str, names: UnitNames) -> Iterator[DisplayColumn]:
-    """Yield the columns of a largest force of a line, if it has one, and of its element."""
-
-    def part(key: str, row: LineSummary) -> Cell:
-        cell: Cell = getattr(getattr(row, name), key, None)
-        return cell
-
-    yield number(f"largest\n{what}", partial(part, "force"), names.line_force)
-    yield number("element", partial(part, "element"))
 
 
 def _touchdown(row: LineSummary) -> str:
@@ -379,21 +368,17 @@ def print_comparison(comparison: ResultComparison, view: View) -> None:
     """Print for each column the number of compared values, and the largest differences with their places."""
 
     def columns_of(name: str) -> Iterator[DisplayColumn]:
-        def of(key: str, row: dict[str, Any]) -> Cell:
-            value: Cell = (row[f"largest_{name}"] or {}).get(key)
-            return shown(value, 4) if key == name and isinstance(value, float) else value
-
-        yield number(f"largest\n{name}", partial(of, name))
-        yield number("at\nelement", partial(of, "element"))
+        yield number(f"largest\n{name}", f"largest_{name}.{name}", digits=4)
+        yield number("at\nelement", f"largest_{name}.element")
         if comparison.timed:
-            yield number("at\ntime", partial(of, "time"))
+            yield number("at\ntime", f"largest_{name}.time")
 
     columns = [
         text("column", "column"),
         number("compared", "compared"),
         *columns_of("difference"),
         *columns_of("relative"),
-        number("rms\ndifference", lambda row: shown(row["rms"], 4)),
+        number("rms\ndifference", "rms", digits=4),
     ]
     title = f"Compared with {comparison.file}"
     view.printer().table(DisplayTable(title, columns, comparison.differences))
