@@ -22,7 +22,7 @@ from mudline.model.contact.result import ResultPart
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.series import SeriesSummary
-from mudline.model.results.summary_tables import law_table, weight_note
+from mudline.model.results.summary_tables import law_table, span, weight_note
 from mudline.model.results.totals import (
     NOT_KNOWN,
     acted_on,
@@ -233,14 +233,10 @@ def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cell
         _, *columns = zip(*rows[start:end], strict=True)
         largest = (each[0] if isinstance(each[0], str) else shown(max(each, key=abs)) for each in columns)
         yield (
-            (_span(numbers[start], numbers[end - 1]), *largest),
+            (span(numbers[start], numbers[end - 1]), *largest),
             min(near[start:end]),
             any(len(set(column)) > 1 for column in columns),
         )
-
-
-def _span(first: int, last: int) -> str:
-    return str(first) if first == last else f"{first} to {last}"
 
 
 # ------------------------------------------------------------------------------------------------------------- steps
@@ -301,7 +297,7 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
     columns = [
         *([] if evaluation.time is None else [_time(evaluation, "time")]),
         number("line", "line"),
-        text("elements", lambda row: _span(row.first_element, row.last_element)),
+        text("elements", lambda row: span(row.first_element, row.last_element)),
         number("touchdown\nat", _touchdown, names.length),
         number("length in\ncontact", "contact_length", names.length),
         number("largest\nforce", "largest_force.force", names.line_force),

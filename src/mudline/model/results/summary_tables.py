@@ -21,6 +21,11 @@ Rows = Sequence[dict[str, Any]]
 """Rows as in JSON."""
 
 
+def span(first: int, last: int) -> str:
+    """Return the numbers of the first and the last element of a run; only one if they are the same."""
+    return str(first) if first == last else f"{first} to {last}"
+
+
 def elements_of(row: dict[str, Any]) -> Cell:
     """Return the number of elements of a set, with a plus where it may have more."""
     return f"{row['elements']}+" if row["open"] else row["elements"]
@@ -147,18 +152,13 @@ SHEET_FORMAT = "mudline-sheet/1"
 
 def sheet_tables(sheet: Sheet) -> list[DisplayTable]:
     """Return the sheet for people: pipe, weights, surroundings, and other load cases if any."""
-    tables = []
+    tables, run = [], text("elements", lambda row: span(row["first_element"], row["last_element"]))
     for subject, columns in sheet.subjects.items() if sheet.rows else ():
         note = weight_note(sheet.left_out) if "weight" in subject else ""
         shown = [replace(each, value=_contents) if each.value == "contents" else each for each in columns]
-        table = DisplayTable(f"Sheet: {subject}", [text("elements", _elements), *shown], sheet.rows, note)
+        table = DisplayTable(f"Sheet: {subject}", [run, *shown], sheet.rows, note)
         tables += [table] if subject and columns else []
     return tables
-
-
-def _elements(row: dict[str, Any]) -> str:
-    first, last = row["first_element"], row["last_element"]
-    return str(first) if first == last else f"{first} to {last}"
 
 
 def _contents(row: dict[str, Any]) -> Cell:
