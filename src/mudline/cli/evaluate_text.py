@@ -41,15 +41,12 @@ if TYPE_CHECKING:
 
 Cells = tuple[Any, ...]
 """Texts and numbers of a row."""
-_MORE_OF = {
-    "elements": "more lines, farther from touchdown: --table elements shows all, -o writes all",
-    "nodes": "more lines: -v shows all, -o writes all",
-}
 _DIGITS = 4
 """Digits of the largest number of a column; the others have as many decimals."""
 _ALIKE = 0.005
 """Share of the largest number of a column by which rows may differ that are shown as one, with the largest."""
 _MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows in ("lines", "steps"))
+_FARTHER = "more lines, farther from touchdown: --table elements shows all, -o writes all"
 _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
 
@@ -153,7 +150,7 @@ def _print_state(printer: Printer, screen: Screen) -> None:
         alike = [f"rows alike to {_ALIKE * 100.0:g} % are one, with the largest numbers"]
         notes = alike if any(differ for _, _, differ in joined) else []
         left = len(joined) - len(nearest)
-        notes += [f"{left} {_MORE_OF[screen.which]}"] if left else []
+        notes += [f"{left} {_FARTHER if screen.which == 'elements' else _MORE_LINES}"] if left else []
         note, rows = "; ".join(notes), [joined[row][0] for row in sorted(nearest)]
     in_part = any(row.contact_length for row in screen.lines) and not result.contact.any()
     if rows:
