@@ -9,7 +9,7 @@ import pytest
 from rich.cells import cell_len
 
 from mudline.basics.limits import LONGEST_MESSAGE
-from mudline.checks.output import form, visible
+from mudline.checks.output import form_module, visible
 from mudline.cli.lint_report import excerpt
 from mudline.language.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.language.syntax.source import Source
@@ -217,7 +217,7 @@ def test_text_that_nobody_reads_to_its_end_is_cut() -> None:
 
 def test_fix_in_json() -> None:
     fix = Fix("unsafe", "write SET=", (Edit((2, 2), (2, 8), "SET"), Edit((3, 1), (3, 1), "\n")))
-    objects = json.loads("".join(form("json", [], "")([found(fix=fix), found()])))
+    objects = json.loads("".join(form_module("json").write([found(fix=fix), found()], [])))
     assert_fits(objects, "lint")
     assert objects[0]["fix"] == {
         "applicability": "unsafe",
@@ -227,4 +227,4 @@ def test_fix_in_json() -> None:
             {"start": [3, 1], "end": [3, 1], "text": "\n"},
         ],
     }
-    assert [json.loads(line) for line in form("jsonl", [], "")([found(fix=fix), found()])] == objects
+    assert [json.loads(line) for line in form_module("jsonl").write([found(fix=fix), found()], [])] == objects

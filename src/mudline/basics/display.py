@@ -12,7 +12,7 @@ from mudline.basics.short_repr import counted
 Cell = str | int | float | tuple[str, str] | None
 """Content of a cell: a text, a number, a text with its style, or nothing."""
 Value = str | int | Callable[[Any], Cell]
-"""Source of a cell: a key, attribute or index of the row, or a function of the row."""
+"""Source of a cell: a key, attribute or index of the row, `a.b` that of a part, or a function of the row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +27,7 @@ class DisplayColumn:
         whole: never wrapped, as a path.
         optional: left out where all its cells are empty.
         missing: cell of a value that is None.
+        digits: significant digits of numbers on the terminal; a page has four.
     """
 
     heading: str
@@ -36,6 +37,7 @@ class DisplayColumn:
     whole: bool = False
     optional: bool = False
     missing: Cell = None
+    digits: int = 6
 
     @property
     def head(self) -> str:
@@ -46,9 +48,12 @@ class DisplayColumn:
         """Return the cell of a row."""
         if callable(self.value):
             cell = self.value(row)
+        elif isinstance(self.value, int):
+            cell = row[self.value]
         else:
-            by_name = isinstance(self.value, str) and not isinstance(row, Mapping)
-            cell = getattr(row, str(self.value)) if by_name else row[self.value]
+            cell = row
+            for name in self.value.split("."):
+                cell = None if cell is None else cell[name] if isinstance(cell, Mapping) else getattr(cell, name)
         return self.missing if cell is None else cell
 
 

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path, PurePosixPath
 from string import Formatter
 from typing import NamedTuple
@@ -239,17 +240,6 @@ def _reason(diagnostics: Sequence[Diagnostic], name: str) -> str:
 _DIGITS = 5
 _SHORT = 24
 """Letters of a name that is never wrapped."""
-_OF_FORCES = (
-    "largest_force",
-    "largest_force_element",
-    "largest_uplift",
-    "largest_uplift_element",
-    "reaction",
-    "submerged_weight",
-    "empty_weight",
-    "contents_case",
-    "ratio",
-)
 _LARGE = 1e7
 """Limit above which numbers have an exponent."""
 
@@ -283,31 +273,23 @@ def _inside(folder: str) -> str:
 
 
 def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:
-    """Yield the columns of the evaluated decks; columns in which all rows agree on nothing are left out when empty."""
+    """Yield the columns of the evaluated decks with a heading; units and steps only where decks differ in them."""
     systems = {row.units for row in listed}
     units = listed[0].units or "" if len(systems) == 1 else ""
+    shown_names = {name for name, quantity in CASES.items() if quantity.label}
+    shown_names |= {"units"} if len(systems) > 1 else set()
+    shown_names |= {"steps"} if any(row.steps != 1 for row in listed) else set()
+    if all(row.submerged_weight == row.empty_weight for row in listed):
+        shown_names.remove("empty_weight")
+    for name, quantity in CASES.items():
+        if name in shown_names:
+            value = _VALUES.get(name, partial(_shortened, name))
+            yield number(quantity.label or name, value, quantity.unit_name(units), optional=True)
 
-    def column(name: str, heading: str = "", value: Value = "") -> DisplayColumn:
-        quantity = CASES[name]
 
-        def shortened(row: CaseSummary) -> Cell:
-            cell: Cell = getattr(row, name)
-            return _number(cell) if isinstance(cell, float) else cell
-
-        return number(heading or quantity.label or name, value or shortened, quantity.unit_name(units), optional=True)
-
-    if len(systems) > 1:
-        yield column("units")
-    if any(row.steps != 1 for row in listed):
-        yield column("steps")
-    yield column("in_contact")
-    yield column("touchdown_from", "TDP\nat", _touchdown)
-    yield column("contact_length", value=lambda row: _number(row.contact_length) if row.contact_length else "")
-    filled = any(row.submerged_weight != row.empty_weight for row in listed)
-    for name in _OF_FORCES:
-        if filled or name != "empty_weight":
-            yield column(name)
-    yield column("warnings", value=lambda row: row.warnings or "")
+def _shortened(name: str, row: CaseSummary) -> Cell:
+    cell: Cell = getattr(row, name)
+    return _number(cell) if isinstance(cell, float) else cell
 
 
 def _touchdown(row: CaseSummary) -> str:
@@ -322,3 +304,11 @@ def _number(value: float | None) -> str:
     """Return a number with few digits, without an exponent below 1e7."""
     short = shown(value, _DIGITS)
     return f"{value:.0f}" if value is not None and "e+" in short and abs(value) < _LARGE else short
+
+
+_VALUES: dict[str, Value] = {
+    "touchdown_from": _touchdown,
+    "contact_length": lambda row: _number(row.contact_length) if row.contact_length else "",
+    "warnings": lambda row: row.warnings or "",
+}
+"""Cells that are not the value of a row."""

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from functools import partial
 from itertools import islice, pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
+from mudline.basics.display import DisplayColumn, DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import LINES, STEPS, UnitNames, shown, time_unit, unit_names
+from mudline.basics.quantities import LINES, STEPS, shown, time_unit, unit_names
 from mudline.basics.short_repr import counted
 from mudline.cli.streams import View
 from mudline.model.contact import ContactResult, Plan
@@ -23,7 +22,7 @@ from mudline.model.contact.result import ResultPart
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.series import SeriesSummary
-from mudline.model.results.summary_tables import law_table, weight_note
+from mudline.model.results.summary_tables import law_table, span, weight_note
 from mudline.model.results.totals import (
     NOT_KNOWN,
     acted_on,
@@ -42,15 +41,12 @@ if TYPE_CHECKING:
 
 Cells = tuple[Any, ...]
 """Texts and numbers of a row."""
-_MORE_OF = {
-    "elements": "more lines, farther from touchdown: --table elements shows all, -o writes all",
-    "nodes": "more lines: -v shows all, -o writes all",
-}
 _DIGITS = 4
 """Digits of the largest number of a column; the others have as many decimals."""
 _ALIKE = 0.005
 """Share of the largest number of a column by which rows may differ that are shown as one, with the largest."""
 _MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows in ("lines", "steps"))
+_FARTHER = "more lines, farther from touchdown: --table elements shows all, -o writes all"
 _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
 
@@ -154,7 +150,7 @@ def _print_state(printer: Printer, screen: Screen) -> None:
         alike = [f"rows alike to {_ALIKE * 100.0:g} % are one, with the largest numbers"]
         notes = alike if any(differ for _, _, differ in joined) else []
         left = len(joined) - len(nearest)
-        notes += [f"{left} {_MORE_OF[screen.which]}"] if left else []
+        notes += [f"{left} {_FARTHER if screen.which == 'elements' else _MORE_LINES}"] if left else []
         note, rows = "; ".join(notes), [joined[row][0] for row in sorted(nearest)]
     in_part = any(row.contact_length for row in screen.lines) and not result.contact.any()
     if rows:
@@ -208,8 +204,7 @@ def _print_totals(printer: Printer, evaluation: Evaluation, result: ContactResul
         sums = {name: sum(each[name] for each in rows) for name in ("elements", "touching")}
         deepest = max((each["deepest"] for each in rows if each["deepest"] is not None), default=None)
         rows.append({"law": "total", "set_name": "", **sums, "deepest": deepest, "reaction": known})
-    names = unit_names(evaluation.scene.units)
-    printer.table(law_table(_title(evaluation), rows, names, "total\nreaction"))
+    printer.table(law_table(_title(evaluation), rows, unit_names(evaluation.scene.units), "total\nreaction"))
 
 
 def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cells, float, bool]]:
@@ -235,14 +230,10 @@ def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cell
         _, *columns = zip(*rows[start:end], strict=True)
         largest = (each[0] if isinstance(each[0], str) else shown(max(each, key=abs)) for each in columns)
         yield (
-            (_span(numbers[start], numbers[end - 1]), *largest),
+            (span(numbers[start], numbers[end - 1]), *largest),
             min(near[start:end]),
             any(len(set(column)) > 1 for column in columns),
         )
-
-
-def _span(first: int, last: int) -> str:
-    return str(first) if first == last else f"{first} to {last}"
 
 
 # ------------------------------------------------------------------------------------------------------------- steps
@@ -299,16 +290,17 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
     """Print touchdown, largest forces, reaction and weight of lines, a row for each line and step."""
     evaluation, rows = screen.evaluation, screen.lines
     names = unit_names(evaluation.scene.units)
-    pulled = any(row.largest_uplift is not None for row in rows)
     filled = any(row.submerged_weight != row.empty_weight for row in rows)
     columns = [
         *([] if evaluation.time is None else [_time(evaluation, "time")]),
         number("line", "line"),
-        text("elements", lambda row: _span(row.first_element, row.last_element)),
+        text("elements", lambda row: span(row.first_element, row.last_element)),
         number("touchdown\nat", _touchdown, names.length),
         number("length in\ncontact", "contact_length", names.length),
-        *_largest("force", "largest_force", names),
-        *(_largest("uplift", "largest_uplift", names) if pulled else ()),
+        number("largest\nforce", "largest_force.force", names.line_force),
+        number("element", "largest_force.element"),
+        number("largest\nuplift", "largest_uplift.force", names.line_force, optional=True),
+        number("element", "largest_uplift.element", optional=True),
         number("total\nreaction", "reaction", names.force, missing=NOT_KNOWN),
         number("submerged\nweight", "submerged_weight", names.force),
         *([number("weight,\nempty", "empty_weight", names.force)] if filled else []),
@@ -321,17 +313,6 @@ def _print_lines(printer: Printer, screen: Screen) -> None:
             weight_note(evaluation.weights_without, evaluation.contents_case),
         ]
         printer.table(DisplayTable("Touchdown", columns, rows, "; ".join(filter(None, notes))))
-
-
-def _largest(what: str, name: str, names: UnitNames) -> Iterator[DisplayColumn]:
-    """Yield the columns of a largest force of a line, if it has one, and of its element."""
-
-    def part(key: str, row: LineSummary) -> Cell:
-        cell: Cell = getattr(getattr(row, name), key, None)
-        return cell
-
-    yield number(f"largest\n{what}", partial(part, "force"), names.line_force)
-    yield number("element", partial(part, "element"))
 
 
 def _touchdown(row: LineSummary) -> str:
@@ -380,21 +361,17 @@ def print_comparison(comparison: ResultComparison, view: View) -> None:
     """Print for each column the number of compared values, and the largest differences with their places."""
 
     def columns_of(name: str) -> Iterator[DisplayColumn]:
-        def of(key: str, row: dict[str, Any]) -> Cell:
-            value: Cell = (row[f"largest_{name}"] or {}).get(key)
-            return shown(value, 4) if key == name and isinstance(value, float) else value
-
-        yield number(f"largest\n{name}", partial(of, name))
-        yield number("at\nelement", partial(of, "element"))
+        yield number(f"largest\n{name}", f"largest_{name}.{name}", digits=4)
+        yield number("at\nelement", f"largest_{name}.element")
         if comparison.timed:
-            yield number("at\ntime", partial(of, "time"))
+            yield number("at\ntime", f"largest_{name}.time")
 
     columns = [
         text("column", "column"),
         number("compared", "compared"),
         *columns_of("difference"),
         *columns_of("relative"),
-        number("rms\ndifference", lambda row: shown(row["rms"], 4)),
+        number("rms\ndifference", "rms", digits=4),
     ]
     title = f"Compared with {comparison.file}"
     view.printer().table(DisplayTable(title, columns, comparison.differences))

@@ -73,7 +73,9 @@ class Printer:
         rather than cut a number or a column that stays whole.
         """
         table = table.filled()
-        cells, columns = [[self._cell(cell) for cell in row] for row in table.cells()], table.columns
+        columns = table.columns
+        digits = [column.digits for column in columns]
+        cells = [list(map(self._cell, row, digits)) for row in table.cells()]
         depth = max(column.head.count("\n") for column in columns)
         padded = (("\n" * (depth - column.head.count("\n")) + column.head).split("\n") for column in columns)
         heads = list(zip(*([self.visible(line) for line in lines] for lines in padded), strict=True))
@@ -100,10 +102,10 @@ class Printer:
             self.line((self.visible(below), "dim"))
         self._console.print()
 
-    def _cell(self, cell: Cell) -> _Styled:
+    def _cell(self, cell: Cell, digits: int) -> _Styled:
         """Return the text of a cell, and its style."""
         value, style = cell if isinstance(cell, tuple) else (cell, "")
-        text = value if isinstance(value, str) else str(value) if isinstance(value, int) else shown(value)
+        text = value if isinstance(value, str) else str(value) if isinstance(value, int) else shown(value, digits)
         return self.visible(text), style
 
 

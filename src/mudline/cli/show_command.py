@@ -51,17 +51,16 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     elif form == "json":
         emit_json(summary)
     else:
+        printer, of_sheet = view.printer(), sheet_tables(elements)
         if not sheet:
-            _print_summary(summary, view)
-        tables = sheet_tables(elements)
-        if sheet and not tables:
+            _print_head(printer, summary)
+        elif not of_sheet:
             notify(f"{summary['file']}: the deck has no elements to list in a sheet")
-        for table in tables:
-            view.printer().table(table.first(view.most))
-    if errors:
-        counts = Counter(error.file for error in errors)
-        for file, count in counts.items():
-            notify(f"{file} has {counted(count, 'error')}: see mudline lint")
+        tables = [] if sheet else tables_of(summary, view.most)
+        for table in (*tables, *(each.first(view.most) for each in of_sheet)):
+            printer.table(table)
+    for file, count in Counter(error.file for error in errors).items():
+        notify(f"{file} has {counted(count, 'error')}: see mudline lint")
     return FOUND if errors else DONE
 
 
@@ -77,15 +76,8 @@ def _form(output: str | None, output_format: str) -> str:
     return form
 
 
-def _print_summary(summary: dict[str, Any], view: View) -> None:
-    """Print sections and keywords, then a table each of sets, curves, diameters and laws."""
-    printer = view.printer()
-    _print_head(printer, summary)
-    for table in tables_of(summary, view.most):
-        printer.table(table)
-
-
 def _print_head(printer: Printer, summary: dict[str, Any]) -> None:
+    """Print counts, sections and keywords."""
     unit = unit_names(summary["units"]).behind("length")
     length = f", {shown(summary['length'])}{unit} long" if summary["length"] is not None else ""
     seabed = " and ".join(summary["seabed"]) or "no"

@@ -20,7 +20,7 @@ _PER_LENGTH = {"imperial": POUND / FOOT}
 class CaseSummary:
     """A deck among many: extremes over all lines and steps; None for a value that does not exist.
 
-    The fields are annotated as a `Quantity`: meaning, unit, heading for people.
+    The fields are annotated as a `Quantity`: meaning, unit, heading in the table for people, which has those with one.
     """
 
     deck: Annotated[str, "the file, as it was given or found"]
@@ -31,7 +31,9 @@ class CaseSummary:
     steps: Annotated[int | None, "number of time steps; 1 for one state"] = None
     elements: Annotated[int | None, "number of elements that were evaluated"] = None
     in_contact: Annotated[int | None, "largest number of elements in contact", "", "in\ncontact"] = None
-    touchdown_from: Annotated[float | None, "least and largest arc length of a touchdown point", "length"] = None
+    touchdown_from: Annotated[
+        float | None, "least and largest arc length of a touchdown point", "length", "TDP\nat"
+    ] = None
     touchdown_to: Annotated[float | None, "least and largest arc length of a touchdown point", "length"] = None
     contact_length: Annotated[float | None, "largest length below the seabed", "length", "contact\nlength"] = None
     largest_force: Annotated[

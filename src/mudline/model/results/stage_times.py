@@ -44,7 +44,7 @@ _EXTENSIONS = {
     "friction": "SEABED FRICTION",
     "trench": "SEABED TRENCH",
 }
-_RESISTANCES = {"suction": "suction", "friction": "friction", "lateral": "lateral"}
+_RESISTANCES = ("suction", "friction", "lateral")
 
 
 class StageRow(NamedTuple):
@@ -210,8 +210,8 @@ def _place(scene: Scene, stage: str) -> Where | None:
         return extension.places[int(extension.of_element[extension.of_element >= 0].min())]
     if stage not in _RESISTANCES:
         return None
-    name, resistance = _RESISTANCES[stage], scene.resistance
-    values = resistance.column(name)
+    resistance = scene.resistance
+    values = resistance.column(stage)
     having = np.greater(values, 0.0) if values.ndim == 1 else np.greater(values, 0.0).any(axis=1)
     at = resistance.of_element[having & (resistance.of_element >= 0)]
-    return resistance.places[int(at.min())].inside(name) if at.size else None
+    return resistance.places[int(at.min())].inside(stage) if at.size else None

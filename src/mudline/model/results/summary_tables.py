@@ -10,7 +10,7 @@ import numpy as np
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
 from mudline.basics.quantities import UnitNames, shown, unit_names
-from mudline.model.contact.columns import ResultColumn
+from mudline.model.contact.columns import ResultColumn, coded
 from mudline.model.results.forms import ResultTables
 from mudline.model.scene.sheet import Sheet
 
@@ -19,6 +19,11 @@ OPEN = "+ a block that is not read may add elements to this set"
 
 Rows = Sequence[dict[str, Any]]
 """Rows as in JSON."""
+
+
+def span(first: int, last: int) -> str:
+    """Return the numbers of the first and the last element of a run; only one if they are the same."""
+    return str(first) if first == last else f"{first} to {last}"
 
 
 def elements_of(row: dict[str, Any]) -> Cell:
@@ -147,18 +152,13 @@ SHEET_FORMAT = "mudline-sheet/1"
 
 def sheet_tables(sheet: Sheet) -> list[DisplayTable]:
     """Return the sheet for people: pipe, weights, surroundings, and other load cases if any."""
-    tables = []
+    tables, run = [], text("elements", lambda row: span(row["first_element"], row["last_element"]))
     for subject, columns in sheet.subjects.items() if sheet.rows else ():
         note = weight_note(sheet.left_out) if "weight" in subject else ""
         shown = [replace(each, value=_contents) if each.value == "contents" else each for each in columns]
-        table = DisplayTable(f"Sheet: {subject}", [text("elements", _elements), *shown], sheet.rows, note)
+        table = DisplayTable(f"Sheet: {subject}", [run, *shown], sheet.rows, note)
         tables += [table] if subject and columns else []
     return tables
-
-
-def _elements(row: dict[str, Any]) -> str:
-    first, last = row["first_element"], row["last_element"]
-    return str(first) if first == last else f"{first} to {last}"
 
 
 def _contents(row: dict[str, Any]) -> Cell:
@@ -175,8 +175,6 @@ def sheet_data(sheet: Sheet, units: str) -> ResultTables:
 
 def _data(key: str, column: DisplayColumn, values: list[Any]) -> ResultColumn:
     if column.left:
-        names = tuple(dict.fromkeys(value for value in values if value is not None))
-        codes = [-1 if value is None else names.index(value) for value in values]
-        return ResultColumn(key, np.array(codes, np.int32), (*names, None))
+        return ResultColumn(key, *coded(values))
     dtype = np.int64 if key in {"first_element", "last_element", "elements"} else np.float64  # None becomes NaN
     return ResultColumn(key, np.array(values, dtype), unit=column.unit)

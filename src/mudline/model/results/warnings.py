@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -129,18 +128,19 @@ def caption(warnings: Sequence[ContactWarning]) -> str:
     return cut(f"{counted(len(briefs), 'warning')}: {'; '.join(briefs)}", _CAPTION) if briefs else ""
 
 
-class _Balance(NamedTuple):
+@dataclass
+class _Balance:
     """Total reaction and submerged weight (NaN if unknown) of the elements (indices) in contact with a law.
 
     `empty` is the weight without contents. Over several steps they are sums; `elements` are then in
     contact at one of the steps.
     """
 
-    reaction: float
-    weight: float
-    empty: float
-    elements: Indices
-    steps: int
+    reaction: float = 0.0
+    weight: float = 0.0
+    empty: float = 0.0
+    elements: Indices = field(default_factory=lambda: np.zeros(0, np.intp))
+    steps: int = 0
 
     @property
     def ratio(self) -> float:
@@ -170,7 +170,7 @@ class ContactWatch:
         self._acts = False
         self._clearance = (math.inf, -1, 0)
         """The smallest distance of a node above the seabed, the index of the node, and the step."""
-        self.balance = _Balance(0.0, 0.0, 0.0, np.zeros(0, np.intp), 0)
+        self.balance = _Balance()
         self._survey = survey_of(scene.seabed)
         lawful = self._elements[scene.law[self._elements] != LawKind.NONE]
         self._lawful = distinct(scene.element_nodes[lawful])
@@ -219,23 +219,18 @@ class ContactWatch:
 
     def _weigh(self, result: ContactResult) -> None:
         """Add reaction and weights of some steps."""
-        scene, before = self._scene, self.balance
+        scene, balance = self._scene, self.balance
         law = scene.law[self._elements]
         held = kept(result.contact, self._elements) & (law != LawKind.NONE)
         times, here = held.sum(axis=0), self._elements[held.any(axis=0)]
         times = times[times > 0] * scene.length[here]
         with np.errstate(over="ignore", invalid="ignore"):
-            emptied = operating_weight(scene, filled=False)
-            weight, empty = (float((times * per[here]).sum()) for per in (self._weight, emptied))
             rigid = (law == LawKind.RIGID).any()
-            reaction = math.nan if rigid else float(kept(result.normal_force, self._nodes).sum())
-            self.balance = _Balance(
-                before.reaction + reaction,
-                before.weight + weight,
-                before.empty + empty,
-                distinct(np.concatenate([before.elements, here])),
-                before.steps + len(held),
-            )
+            balance.reaction += math.nan if rigid else float(kept(result.normal_force, self._nodes).sum())
+            balance.weight += float((times * self._weight[here]).sum())
+            balance.empty += float((times * operating_weight(scene, filled=False)[here]).sum())
+        balance.elements = distinct(np.concatenate([balance.elements, here]))
+        balance.steps += len(held)
 
     # ----------------------------------------------------------------------------------------------- what it found
 

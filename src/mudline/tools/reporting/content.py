@@ -6,7 +6,7 @@ gives the reason.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
 from hashlib import sha256
@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.basics.quantities import as_json, finite, shown, unit_names
+from mudline.basics.quantities import as_json, finite
 from mudline.basics.version import __version__
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, joined_problems, named_causes
@@ -24,11 +24,10 @@ from mudline.checks.output.json import as_object
 from mudline.checks.registry import rules
 from mudline.checks.suppression import suppressions
 from mudline.checks.verdict import Verdict, judge, refused
-from mudline.language.codes.contact import SBD025
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Where
+from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.language.syntax.source import Source
 from mudline.model.contact.input import LawKind
 from mudline.model.results.curve_rows import curve_rows
@@ -39,9 +38,8 @@ from mudline.model.results.summary import summarise
 from mudline.model.results.totals import line_steps, reaction, states, totals
 from mudline.model.results.warnings import ContactWatch, caption
 from mudline.model.scene.model import Scene, resolve
-from mudline.model.scene.numbering import Mask
 from mudline.model.scene.sheet import Sheet, sheet_of
-from mudline.tools.reporting.inputs import inferences, inputs_of, values_in_words
+from mudline.tools.reporting.inputs import inferences, inputs_of, laws_of
 from mudline.tools.touchdown_study.rest_shape import rest_shape
 from mudline.tools.touchdown_study.study import Study, study
 
@@ -321,50 +319,7 @@ def _model(scene: Scene) -> dict[str, Any]:
 
 def _curves(scene: Scene) -> dict[str, Any]:
     """Return every curve as evaluated, and the laws of each set of elements with their lines in the deck."""
-    return {"curves": curve_rows(scene, (), None), "laws": list(_laws(scene))}
-
-
-def _laws(scene: Scene) -> Iterator[dict[str, Any]]:
-    keeps_it = scene.replacing < 0  # other elements have nodal springs or soil
-    stiffness_unit = unit_names(scene.units).behind("stiffness")
-    for index, grant in enumerate(scene.laws.set_laws):
-        values: dict[str, Any] = {} if np.isnan(grant.stiffness) else {"stiffness": finite(grant.stiffness)}
-        words = f"stiffness {shown(grant.stiffness)}{stiffness_unit}" if values else ""
-        follow = (scene.laws.of_element == index) & keeps_it
-        law = _law(scene, scene.law_name(grant), grant.set_.name, follow, grant.where)
-        yield law | {"values": values, "words": words}
-    for index, (resistance, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
-        values = {key.replace("_", " "): read for key, value in resistance._asdict().items() if (read := _given(value))}
-        entry: Any = scene.deck.sections[where.section].blocks[where.block]
-        part = entry.sets[where.path[1]] if where.path[0] == "sets" else entry.properties
-        if values:
-            words = "; ".join(values_in_words(part, scene.units, ("set", "stiffness")))
-            name: str | None = getattr(part, "set_name", None)
-            law = _law(scene, "resistance", name, scene.resistance.of_element == index, where)
-            yield law | {"values": values, "words": words}
-    for keyword, extension in scene.extensions.items():
-        for index, (record, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
-            values = record.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_defaults=True)
-            of_set = values.pop("set", None)
-            words = "; ".join(values_in_words(record, scene.units, ("set",)))
-            law = _law(scene, f"*{keyword}", of_set, extension.of_element == index, where)
-            yield law | {"values": values, "words": words}
-
-
-def _law(scene: Scene, law: str, set_name: str | None, follow: Mask, where: Where) -> dict[str, Any]:
-    (place,) = scene.deck.diagnose([Problem(SBD025, "", where=where)])
-    name = set_name or "ALL"
-    known = scene.set_table.find(name)
-    counts = {"elements": int(follow.sum()), "open": known is not None and known.open}
-    return {"law": law, "set": name} | counts | {"file": place.file, "line": place.line}
-
-
-def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direction
-    """Return the value that the deck gives, or None."""
-    if isinstance(value, tuple):
-        numbers = [finite(float(component)) for component in value]
-        return None if all(number is None for number in numbers) else numbers
-    return finite(float(value))
+    return {"curves": curve_rows(scene, (), None), "laws": list(laws_of(scene))}
 
 
 # ------------------------------------------------------------------------------------------ contact, study and plan

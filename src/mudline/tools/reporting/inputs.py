@@ -1,4 +1,4 @@
-"""Inputs of a deck next to its lines of pipe: water, conditions, waves, current, vessels and times, with units.
+"""Inputs of a deck next to its lines of pipe, with units: water, conditions, waves, current, vessels, times, and laws.
 
 It also lists deductions in the declarations of a deck's keywords: statements that no public page makes.
 """
@@ -8,7 +8,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
-from mudline.basics.quantities import labelled, shown
+import numpy as np
+
+from mudline.basics.quantities import finite, labelled, shown, unit_names
 from mudline.language.codes.contact import SBD025
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.diagnostics import Problem, Where
@@ -18,6 +20,7 @@ from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, rec
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import field_text
 from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Mask
 
 _MODEL = ("OCEAN", "MASS", "DRAG CHAIN", "NODE SPRING")
 """Keywords of `$MODEL` that are inputs, in addition to those of vessels."""
@@ -95,6 +98,53 @@ def _table(slot: FieldSpec, table: Table, units: str) -> str:
     rows = [", ".join(shown(value) for value in row) for row in table.values[:_MOST].tolist()]
     more = f", {len(table) - _MOST} more" if len(table) > _MOST else ""
     return f"{heads}: {' / '.join(rows)}{more}"
+
+
+# ----------------------------------------------------------------------------------------------------------------- laws
+
+
+def laws_of(scene: Scene) -> Iterator[dict[str, Any]]:
+    """Yield the law of each set of elements, resistances and laws of extension keywords, with values in words."""
+    keeps_it = scene.replacing < 0  # other elements have nodal springs or soil
+    stiffness_unit = unit_names(scene.units).behind("stiffness")
+    for index, grant in enumerate(scene.laws.set_laws):
+        values: dict[str, Any] = {} if np.isnan(grant.stiffness) else {"stiffness": finite(grant.stiffness)}
+        words = f"stiffness {shown(grant.stiffness)}{stiffness_unit}" if values else ""
+        follow = (scene.laws.of_element == index) & keeps_it
+        law = _law(scene, scene.law_name(grant), grant.set_.name, follow, grant.where)
+        yield law | {"values": values, "words": words}
+    for index, (resistance, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
+        values = {key.replace("_", " "): read for key, value in resistance._asdict().items() if (read := _given(value))}
+        entry: Any = scene.deck.sections[where.section].blocks[where.block]
+        part = entry.sets[where.path[1]] if where.path[0] == "sets" else entry.properties
+        if values:
+            words = "; ".join(values_in_words(part, scene.units, ("set", "stiffness")))
+            name: str | None = getattr(part, "set_name", None)
+            law = _law(scene, "resistance", name, scene.resistance.of_element == index, where)
+            yield law | {"values": values, "words": words}
+    for keyword, extension in scene.extensions.items():
+        for index, (record, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+            values = record.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_defaults=True)
+            of_set = values.pop("set", None)
+            words = "; ".join(values_in_words(record, scene.units, ("set",)))
+            law = _law(scene, f"*{keyword}", of_set, extension.of_element == index, where)
+            yield law | {"values": values, "words": words}
+
+
+def _law(scene: Scene, law: str, set_name: str | None, follow: Mask, where: Where) -> dict[str, Any]:
+    (place,) = scene.deck.diagnose([Problem(SBD025, "", where=where)])
+    name = set_name or "ALL"
+    known = scene.set_table.find(name)
+    counts = {"elements": int(follow.sum()), "open": known is not None and known.open}
+    return {"law": law, "set": name} | counts | {"file": place.file, "line": place.line}
+
+
+def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direction
+    """Return the value that the deck gives, or None."""
+    if isinstance(value, tuple):
+        numbers = [finite(float(component)) for component in value]
+        return None if all(number is None for number in numbers) else numbers
+    return finite(float(value))
 
 
 # ----------------------------------------------------------------------------------------------------------- deductions

@@ -188,7 +188,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable
         text("elements", lambda row: f"{row['first_element']} to {row['last_element']}"),
         number("touchdown at arc length", of_line, names.length),
         number("length in contact", "contact_length", names.length),
-        number("largest force", lambda row: (row["largest_force"] or {}).get("force"), names.line_force),
+        number("largest force", "largest_force.force", names.line_force),
         number("reaction", "reaction", names.force, missing=NOT_KNOWN),
         number("weight", "submerged_weight", names.force),
         number("weight, empty", "empty_weight", names.force),

@@ -11,7 +11,6 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
 from typing import Any, BinaryIO, NamedTuple, Protocol
 
 import numpy as np
@@ -193,14 +192,10 @@ class ResultOutput:
     tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
 
     def writer(self) -> Writer:
-        """Return the writer. Raises FormError, OSError, and ImportError as `form_module` does."""
-        writer: Writer = form_module(self.form).writer(self)
+        """Return the writer. Raises FormError, OSError, and ImportError without the library that the format needs."""
+        module = "text" if self.form in TEXTS else self.form
+        writer: Writer = import_module(f"{__name__}.{module}").writer(self)
         return writer
-
-
-def form_module(form: str) -> ModuleType:
-    """Return the module of a format; raises ImportError without the library that it needs."""
-    return import_module(f"{__name__}.{'text' if form in TEXTS else form}")
 
 
 def plan_rows(plan: Plan) -> list[dict[str, Any]]:

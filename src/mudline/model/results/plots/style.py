@@ -149,8 +149,7 @@ def finish(axes: Axes) -> None:
         axes.yaxis.set_major_locator(MaxNLocator(nbins=max(3, min(8, round(4.0 * height))), **_TICKS))
     axes.grid(visible=True, color="0.88", linewidth=0.6)
     axes.set_axisbelow(True)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
+    axes.spines[["top", "right"]].set_visible(False)
 
 
 def zero_line(axes: Axes) -> None:
