@@ -163,7 +163,7 @@ def _nodal_stiffness(step: _Step) -> FloatArray:
 def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return minus d force / d pull-out velocity of elements (m,) and of nodes (n,)."""
     tables, depth = step.tables, step.result.depth
-    uplift = (0.0 if tables.onset is None else tables.onset) - depth
+    uplift = tables.onset - depth
     if tables.unloading is not None and step.after.unloading is not None:
         uplift[tables.unloading.rows] = step.after.unloading.bottom - depth[tables.unloading.rows]
     ends, states = step.ends, (step.before.suction, step.after.suction)
