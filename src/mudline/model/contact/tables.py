@@ -13,7 +13,7 @@ from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
 from mudline.model.contact.laws import NormalLaw, PathLaw, law_module
-from mudline.model.contact.line import Incidence, directions_of
+from mudline.model.contact.lines import Incidence, directions_of
 from mudline.model.contact.seabed import heading
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ from mudline.model.contact.laws.trench import (
     table_rows,
     wall_coefficient,
 )
-from mudline.model.contact.line import Incidence
+from mudline.model.contact.lines import Incidence
 from mudline.model.contact.vectors import LEAST_SQUARE
 
 _ENDS = ("start_y", "start_z", "end_y", "end_z")
