@@ -94,8 +94,8 @@ class SurfaceSeabed(Seabed):
 
     def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
         """Write gaps and normals, see `Seabed`."""
-        rows, flat_gap, flat_normal = points.reshape(-1, 3), gap.view(), normal.view()
-        flat_gap.shape, flat_normal.shape = (-1,), (-1, 3)  # raises AttributeError where these would be copies
+        rows = points.reshape(-1, 3)
+        flat_gap, flat_normal = gap.reshape(-1), normal.reshape(-1, 3)  # views where the arrays allow it, else copies
         for start in range(0, len(rows), _CHUNK):
             part = slice(start, start + _CHUNK)
             x, y, z = np.ascontiguousarray(rows[part].T)
@@ -110,6 +110,10 @@ class SurfaceSeabed(Seabed):
             void = np.isnan(level)
             if void.any():
                 unit[void] = (1.0, 0.0, 0.0)
+        if not np.may_share_memory(flat_gap, gap):
+            gap[...] = flat_gap.reshape(gap.shape)
+        if not np.may_share_memory(flat_normal, normal):
+            normal[...] = flat_normal.reshape(normal.shape)
 
     def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
         """Return elevations, see `Seabed`."""
