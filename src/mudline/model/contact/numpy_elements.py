@@ -75,6 +75,7 @@ class ElementLaws:
         self._tables = tables
         self._unsized = np.flatnonzero(np.isnan(tables.diameter))
         self._normal = [(rows, as_range(rows.rows), tables.diameter[rows.rows]) for rows in tables.normal]
+        self._rises = list(map(law_module("linear").steepest_slopes, tables.given.curves)) if tables.steepens else []
         self._unloading, self._springs = self._subset(tables.unloading), self._subset(tables.springs)
         self._suction, self._lateral = self._subset(tables.suction), self._subset(tables.lateral)
         if self._suction is not None:
@@ -211,10 +212,14 @@ class ElementLaws:
         """Return the steepest slopes of the normal laws between the mudline and penetrations (steps, m)."""
         slopes = np.zeros(z.shape)
         for rows, at, diameter in self._normal:
+            if rows.path >= 0:  # has no unloading line
+                continue
             here = taken(z, at)
             if rows.curve >= 0:
                 curve = self._tables.given.curves[rows.curve]
-                steepest = law_module("linear").steepest_slope(curve, here / diameter) / diameter
+                steepest = (
+                    law_module("linear").steepest_slope(curve, self._rises[rows.curve], here / diameter) / diameter
+                )
             else:
                 steepest = rows.law.steepest(here, diameter, *rows.columns)
             slopes[:, at] = steepest
