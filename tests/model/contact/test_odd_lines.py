@@ -9,7 +9,7 @@ import pytest
 
 from mudline.model.contact import ContactInput, ContactModel
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.line import directions_of
+from mudline.model.contact.lines import directions_of
 from mudline.model.contact.seabed import PlanesSeabed
 from tests.helpers.builders.contact import LINEAR, at_depths, chain, drawn, friction, on, trench, walk
 

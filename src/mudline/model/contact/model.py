@@ -97,15 +97,17 @@ class ContactModel:
     def __setstate__(self, state: dict[str, object]) -> None:
         vars(self).update(state, _made=WeakKeyDictionary(), _own=WeakSet())
 
+    @property
+    def _size(self) -> str:
+        return f"{counted(self._nodes, 'node')}, {counted(len(self.input.element_ids), 'element')}"
+
     def __repr__(self) -> str:
-        size = f"{counted(self._nodes, 'node')}, {counted(len(self.input.element_ids), 'element')}"
         stages = ", ".join(stage.stage for stage in self.plan if stage.active)
-        return outline("ContactModel", size, stages, self.plan.steps)
+        return outline("ContactModel", self._size, stages, self.plan.steps)
 
     def _repr_html_(self) -> str:
         """Return size and plan as HTML, for notebooks."""
-        nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
-        return self.plan.html("ContactModel", f"{counted(nodes, 'node')}, {counted(elements, 'element')}")
+        return self.plan.html("ContactModel", self._size)
 
     def evaluate(
         self,

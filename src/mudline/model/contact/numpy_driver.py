@@ -166,8 +166,8 @@ class NodeLaws:
     ) -> Components:
         """Return components of the tangential reaction: friction and lateral springs."""
         along, across = axes
-        force: Components = tuple(np.zeros(along[0].shape) for _ in along)
         axial = sideways = np.zeros(along[0].shape)
+        force: Components = (axial, axial, axial)
         if state.friction is not None:
             axial, sideways = self._friction_forces(part, state, work, axes, laid)
             force = vectors.blend(along, across, axial, sideways)

@@ -13,7 +13,7 @@ from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
 from mudline.model.contact.laws import NormalLaw, PathLaw, law_module
-from mudline.model.contact.line import Incidence, directions_of
+from mudline.model.contact.lines import Incidence, directions_of
 from mudline.model.contact.seabed import heading
 
 if TYPE_CHECKING:
@@ -139,7 +139,7 @@ class LawTables:
         line: incidence of elements and nodes.
         half: (m,) half of the lengths.
         diameter: (m,) external diameters.
-        onset: (m,) penetration at which contact begins; None if it is 0 everywhere.
+        onset: (m,) penetration at which contact begins.
         normal: normal laws of elements.
         nodal: normal laws of nodes.
         unloading: stiffness of unloading lines.
@@ -164,8 +164,7 @@ class LawTables:
         self.line = Incidence(given.element_nodes, len(given.node_ids))
         self.half: FloatArray = 0.5 * given.length
         self.diameter = given.diameter
-        onset = given.onset()
-        self.onset: FloatArray | None = onset if onset.any() else None
+        self.onset = given.onset()
         self.normal, self._paths = _normal_rows(given.normal_laws)
         self.nodal, _ = _normal_rows(given.nodal_laws)
         self.unloading, self.springs, self.suction = map(given.assigned.get, ("unloading", "suction spring", "suction"))
@@ -175,21 +174,18 @@ class LawTables:
         self.friction: FrictionLaw | None = None
         if (friction := given.assigned.get("friction")) is not None:
             self.friction = _friction_law(friction, len(given.node_ids))
-        self.trench = None
-        if self.friction is not None and given.has("trench peak", "trench wall", "trench table"):
+        self.trench = self.level = None
+        if given.has("trench peak", "trench wall", "trench table", "trench level"):
             from mudline.model.contact.trenches import trench_rows  # noqa: PLC0415 - most friction has no trench
 
-            self.trench = trench_rows(given, self.friction.coefficients[:, 1])
+            if self.friction is not None and given.has("trench peak", "trench wall", "trench table"):
+                self.trench = trench_rows(given, self.friction.coefficients[:, 1])
+            if given.has("trench level"):
+                self.level = trench_rows(given, None)
         self.breakout = _breakout(given, self)
         broken = np.empty(0, np.intp) if self.breakout is None else self.breakout.rows
         self.shares: FloatArray = 1.0 / np.diff(self.line.start)[broken]
         self.embeds = self.breakout is not None and any(self.breakout.columns[at].any() for at in (1, 3))
-        self.level = None
-        if given.has("trench level"):
-            from mudline.model.contact.laws.trench import LEVEL  # noqa: PLC0415 - as above
-            from mudline.model.contact.trenches import trench_rows  # noqa: PLC0415 - as above
-
-            self.level = trench_rows(given, np.zeros(len(given.node_ids)), (LEVEL,))
         self._laid: tuple[FloatArray, LaidCentreline] | None = None
         self.pulling = _pulling(given)
         self.cuts = given.tension == "cut"
@@ -278,8 +274,7 @@ def _lateral(given: ContactInput) -> AssignedLaw | None:
     springs = given.assigned.get("lateral")
     if springs is None:
         return None
-    with np.errstate(over="ignore"):  # a step refuses the reaction
-        return replace(springs, parameters={"stiffness": springs["stiffness"] * (0.5 * given.length[springs.rows])})
+    return replace(springs, parameters={"stiffness": springs["stiffness"] * (0.5 * given.length[springs.rows])})
 
 
 def _breakout(given: ContactInput, tables: LawTables) -> AssignedLaw | None:

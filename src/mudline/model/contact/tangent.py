@@ -16,7 +16,7 @@ import numpy as np
 from mudline.basics.short_repr import short_repr
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.laws import Moving, PathLaw, law_module
-from mudline.model.contact.line import Directions, along_seabed, directions_of
+from mudline.model.contact.lines import Directions, along_seabed, directions_of
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.tables import ContactState, LawTables
 
@@ -90,8 +90,6 @@ class _Step(NamedTuple):
     Attributes:
         points, normal: (n, 3).
         slope: (n, 3) gradient of the height above the seabed, `normal` outside of trenches.
-        ends: (m, 2) nodes of the elements.
-        half: (m,) half lengths.
         before, after: states before and after the step.
     """
 
@@ -99,8 +97,6 @@ class _Step(NamedTuple):
     points: FloatArray
     normal: FloatArray
     slope: FloatArray
-    ends: IndexArray
-    half: FloatArray
     result: ContactResult
     before: ContactState
     after: ContactState
@@ -124,7 +120,7 @@ def assemble(
     slope, laid = normal, points if states[0].laid is None else states[0].laid
     if tables.level is not None:
         slope = normal + tables.lowered(points, laid, normal)[1]
-    step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
+    step = _Step(tables, points, normal, slope, result, *states)
     stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
     by_position, by_velocity = _BlockSum(nodes), _BlockSum(nodes)
     _add_normal(step, (stiffness, own), step.slope, by_position)
@@ -163,10 +159,10 @@ def _nodal_stiffness(step: _Step) -> FloatArray:
 def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return minus d force / d pull-out velocity of elements (m,) and of nodes (n,)."""
     tables, depth = step.tables, step.result.depth
-    uplift = (0.0 if tables.onset is None else tables.onset) - depth
+    uplift = tables.onset - depth
     if tables.unloading is not None and step.after.unloading is not None:
         uplift[tables.unloading.rows] = step.after.unloading.bottom - depth[tables.unloading.rows]
-    ends, states = step.ends, (step.before.suction, step.after.suction)
+    ends, states = step.tables.line.ends, (step.before.suction, step.after.suction)
     of_elements = depth, 0.5 * speed[ends[:, 0]] + 0.5 * speed[ends[:, 1]], uplift
     of_nodes = 0.0 - step.result.gap, speed, step.result.gap
     damping, own = np.zeros(len(depth)), np.zeros(len(speed))
@@ -182,9 +178,9 @@ def _add_normal(step: _Step, by_height: Heights, slope: FloatArray, blocks: _Blo
     """Add normal forces along fixed normals, from derivatives by the heights of elements (m,) and of nodes (n,)."""
     stiffness, own = by_height
     used = np.flatnonzero(stiffness)
-    share = -0.5 * step.half[used] * stiffness[used]
-    for at in step.ends[used].T:
-        for by in step.ends[used].T:
+    share = -0.5 * step.tables.half[used] * stiffness[used]
+    for at in step.tables.line.ends[used].T:
+        for by in step.tables.line.ends[used].T:
             blocks.add(at, by, share[:, None, None] * _outer(step.normal[at], slope[by]))
     nodes = np.flatnonzero(own)
     blocks.add(nodes, nodes, -own[nodes, None, None] * _outer(step.normal[nodes], slope[nodes]))
@@ -198,7 +194,7 @@ def _add_lateral(step: _Step, blocks: _BlockSum) -> None:
     rows = np.flatnonzero(step.result.contact[lateral.rows])
     new = np.isnan(before[rows, 0])
     stiffness = np.where(new, 0.0, lateral.columns[0][rows])  # at touchdown there is no force yet
-    first, second = step.ends[lateral.rows[rows]].T
+    first, second = step.tables.line.ends[lateral.rows[rows]].T
     mean = step.normal[first] + step.normal[second]
     mean = mean / _size(mean)[:, None]
     span = step.points[second] - step.points[first]
@@ -296,10 +292,10 @@ def _add_compression(
     elements, own = by_height
     blocks.add(closed, closed, -own[closed, None, None] * _outer(push[closed], slope[closed]))
     held = _marked(closed, len(own))
-    for at in step.ends.T:
+    for at in step.tables.line.ends.T:
         used = np.flatnonzero((elements != 0.0) & held[at])
-        share = -0.5 * step.half[used] * elements[used]
-        for by in step.ends[used].T:
+        share = -0.5 * step.tables.half[used] * elements[used]
+        for by in step.tables.line.ends[used].T:
             blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], slope[by]))
 
 
@@ -308,7 +304,7 @@ def _add_turning(
 ) -> None:
     """Add the turning of u1 and u2 with the line; `turned` (n, 3) is d friction by a turn about the normal."""
     held = _marked(closed, len(step.points)) & directions.follows
-    second, (start, end) = directions.axes[1], step.ends.T
+    second, (start, end) = directions.axes[1], step.tables.line.ends.T
     span = step.points[end] - step.points[start]
     unit, length = _unit(span)
     for side, at in enumerate((start, end)):

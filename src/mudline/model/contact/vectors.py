@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.laws import Value, where
+from mudline.model.contact.laws import Value, every, where
 
 Vector = tuple[Value, ...]
 
@@ -68,13 +68,11 @@ def projected(vector: Vector, normal: Vector) -> tuple[Vector, Value]:
 def default(normal: Vector) -> Vector:
     """Return the direction of elements and nodes without one: the projection of +Y, or of +Z if +Y is the normal."""
     nothing, one = 0.0 * normal[0], 1.0 + 0.0 * normal[0]
-    along_y, exists = projected((nothing, one, nothing), normal)
-    along_z, _ = projected((nothing, nothing, one), normal)
-    return (
-        where(exists, along_y[0], along_z[0]),
-        where(exists, along_y[1], along_z[1]),
-        where(exists, along_y[2], along_z[2]),
-    )
+    along, exists = projected((nothing, one, nothing), normal)
+    if not every(exists):
+        z, _ = projected((nothing, nothing, one), normal)
+        along = where(exists, along[0], z[0]), where(exists, along[1], z[1]), where(exists, along[2], z[2])
+    return along
 
 
 def turned(cosine: Value, sine: Value, normal: Vector) -> Vector:

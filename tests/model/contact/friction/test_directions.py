@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.line import directions_of
+from mudline.model.contact.lines import directions_of
 from mudline.model.contact.tables import LawTables
 from mudline.model.contact.vectors import in_plane
 from tests.helpers.builders.contact import LINEAR, chain, friction

@@ -76,7 +76,7 @@ def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
     index[:, FIRST], index[:, SECOND] = tables.line.first, tables.line.second
     index[:, KIND] = NO_LAW
     numbers[:, DIAMETER] = given.diameter
-    numbers[:, ONSET] = 0.0 if tables.onset is None else tables.onset
+    numbers[:, ONSET] = tables.onset
     for kind, rows in enumerate(formulas(tables), FIRST_LAW):
         index[rows.rows, KIND] = kind
         index[rows.rows, PATH] = np.arange(len(rows.rows)) + rows.path if rows.path >= 0 else NOTHING

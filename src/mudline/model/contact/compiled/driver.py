@@ -54,15 +54,12 @@ _WORTH_THREADS = 60_000
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-def _pick(condition: bool, value: float, otherwise: float) -> float:  # noqa: FBT001 - as `where` is called
-    """Return one of two numbers, see `where`."""
-    return value if condition else otherwise
-
-
 _INNER: Any = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
 """Options of functions that only loops call: no contraction of products and sums, divisions as in numpy."""
 
-overload(where, jit_options=_INNER, strict=False)(lambda *_: _pick)
+overload(where, jit_options=_INNER, strict=False)(
+    lambda *_: lambda condition, value, otherwise: value if condition else otherwise
+)
 overload(every, jit_options=_INNER, strict=False)(lambda _: lambda condition: condition)
 
 

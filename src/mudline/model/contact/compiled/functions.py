@@ -85,6 +85,11 @@ def choice(wrap: Wrap, functions: tuple[Callable[..., Any], ...]) -> Callable[..
     return wrap(chosen)  # type: ignore[no-any-return]
 
 
+def nothing(*_: Any) -> tuple[float, float]:
+    """Return no force and no stiffness, of a scene without laws with equations or with paths."""
+    return 0.0, 0.0
+
+
 def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: int) -> Callable[..., Any]:
     """Return a function that evaluates the law of a kind, from 0: (kind, z, diameter, table, row).
 
@@ -99,9 +104,6 @@ def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: 
             return float(f), float(k)
 
         return at_row
-
-    def nothing(_z: float, _diameter: float, _table: Array, _row: int) -> tuple[float, float]:
-        return 0.0, 0.0
 
     return choice(wrap, tuple(of_law(*law) for law in laws) or (nothing,))
 
@@ -132,12 +134,7 @@ def followed(wrap: Wrap, laws: tuple[PathLaw, ...], first: int) -> Callable[...,
 
         return follow
 
-    def straight(
-        _z: float, _diameter: float, _table: Array, _row: int, _paths: Array, _held: int
-    ) -> tuple[float, float]:
-        return 0.0, 0.0
-
-    return choice(wrap, tuple(map(of_law, laws)) or (straight,))
+    return choice(wrap, tuple(map(of_law, laws)) or (nothing,))
 
 
 def last_at_or_below(points: Array, begin: Index, end: Index, value: float) -> Index:

@@ -72,12 +72,13 @@ def steepest_slopes(curve: ForceCurve) -> FloatArray:
     return slopes
 
 
-def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
+def steepest_slope(curve: ForceCurve, slopes: FloatArray, ratio: FloatArray) -> FloatArray:
     """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0.
 
-    At a point of the curve the segment to its right is not included; an infinite ratio includes the whole curve.
+    `slopes` are its `steepest_slopes`. At a point of the curve the segment to its right is not included; an infinite
+    ratio includes the whole curve.
     """
-    return steepest_slopes(curve)[np.searchsorted(curve.ratios[1:-1], ratio)]
+    return slopes[np.searchsorted(curve.ratios[1:-1], ratio)]
 
 
 def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value, Value]:
