@@ -59,15 +59,6 @@ class RulePage(NamedTuple):
         """Bytes of the good deck's file."""
         return self.good.encode()
 
-    @property
-    def remark(self) -> str:
-        """Property of the bad deck's file that its text does not show, or ""."""
-        if self.dialect != "mudline":
-            return f"with --dialect {self.dialect}"
-        if self.encoding != "utf-8":
-            return f"saved as {self.encoding.upper()}"
-        return "" if self.bad.endswith("\n") else "the file ends without a line end"
-
 
 class Rule(NamedTuple):
     """Rule: code, function that checks, and the docstring that becomes its page.

@@ -13,8 +13,8 @@ from pydantic_core import ErrorDetails
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.spelling import meant_names
 from mudline.language.codes import DOC001, DOC002
-from mudline.language.deck.model import START, Deck, Origin, Range
-from mudline.language.diagnostics import MORE, DeckError, Diagnostic, Problem, Span, Where
+from mudline.language.deck.model import START, Deck, Range, printable
+from mudline.language.diagnostics import MORE, DeckError, Diagnostic, Where
 from mudline.language.keywords.faults import DocumentPath, fault_in_words, holds, path_in, path_text, shown
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.text import hint
@@ -32,16 +32,6 @@ def document_path(where: Where) -> DocumentPath:
     section, block, path = where
     start: DocumentPath = () if section < 0 else ("sections", section)
     return (*start, *(() if block < 0 else ("blocks", block)), *path)
-
-
-class _Numbered(Origin):
-    """Places of problems whose span is the number of the place."""
-
-    def __init__(self, places: list[Range]) -> None:
-        self.places = places
-
-    def place(self, problem: Problem) -> Range:
-        return self.places[problem.span.start] if problem.span else START
 
 
 class MisspeltDeckError(DeckError):
@@ -107,9 +97,9 @@ class Faults:
         raise DeckError(self._diagnosed())
 
     def _diagnosed(self) -> list[Diagnostic]:
-        places = [place for place, _ in self.found]
-        problems = [Problem(DOC002, message, Span(number, number)) for number, (_, message) in enumerate(self.found)]
-        return Deck(self.file, origin=_Numbered(places)).diagnose(problems)
+        kind = DOC002.code, DOC002.slug, DOC002.severity
+        found = (Diagnostic(self.file, *kind, printable(words), *place, blocks=True) for place, words in self.found)
+        return sorted(found, key=lambda diagnostic: diagnostic.sort_key)
 
     def _alternatives(self, loc: DocumentPath, given: int, kind: str) -> set[int]:
         """Which steps of a path, behind the given ones, are names of alternatives that pydantic puts in."""

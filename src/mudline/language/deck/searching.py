@@ -23,23 +23,20 @@ def is_deck(path: str) -> bool:
     return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - called for many files
 
 
-def is_document(path: str) -> bool:
-    """Return True if a file is a deck in JSON or YAML, by the format name at its beginning.
+def is_in_any_form(path: str) -> bool:
+    """Return True if a file is a deck by its suffix, or one in JSON or YAML by the format name at its beginning.
 
     A file that cannot be opened counts as a deck; the error is reported when it is read.
     """
-    if is_deck(path) or form_of(path) == "keyword" or not may_be_file(path):
+    if is_deck(path):
+        return True
+    if form_of(path) == "keyword" or not may_be_file(path):
         return False
     try:
         with Path(path).open("rb") as stream:
             return MARK.encode() in stream.read(_HEAD)
     except OSError:
         return True
-
-
-def is_in_any_form(path: str) -> bool:
-    """Return True if a file is a deck by its suffix or its content."""
-    return is_deck(path) or is_document(path)
 
 
 def is_key_file(path: str) -> bool:

@@ -12,7 +12,7 @@ from pydantic_core import to_json
 from mudline.language.keywords.contents import KeptLine
 from mudline.language.keywords.fields import Comment, Setting
 from mudline.language.keywords.model import Block, FieldSpec, Part, Record, Rows, record_schema
-from mudline.language.keywords.table import Cell, Table
+from mudline.language.keywords.table import Cell
 
 Item = tuple[list[str], int]
 """Lines that comments can precede, and their number of items: one for each table row, else one in total."""
@@ -83,19 +83,15 @@ def _items(record: Record) -> Iterator[Item]:
             text = f"{setting.key}={_value(value)}"
             pending = f"{pending}, {text}" if joins else f" {text}"
         elif isinstance(slot.about, Rows):
-            yield from ((lines, len(lines)) for lines in table_lines(value))
+            for piece in value.lines(joined):
+                lines = f" {piece}".replace("\n", "\n ").split("\n")
+                yield lines, len(lines)
         elif slot.record:
             yield from ((list(_record_lines(child)), 1) for child in value)
         else:
             pending = f" {_value(value)}"
     if pending:
         yield [pending], 1
-
-
-def table_lines(table: Table) -> Iterator[list[str]]:
-    """Yield the rows of a table, one per line, in chunks of some thousand."""
-    for piece in table.lines(joined):
-        yield f" {piece}".replace("\n", "\n ").split("\n")
 
 
 def _value(value: Any) -> str:

@@ -144,20 +144,12 @@ def _node(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _node(item) for key, item in value.items()}
     if isinstance(value, Table):
-        return _table(value)
-    if not isinstance(value, list) or not value:
+        if len(value) > SHORT_TABLE:
+            return _Literal("".join(f"{piece}\n" for piece in value.lines(joined)))
+        return [_Flow(row) for row in value.rows()]
+    if not isinstance(value, list) or not value or isinstance(value[0], str):
         return value
-    if isinstance(value[0], str):
-        return value
-    if isinstance(value[0], dict | list):
-        return [_node(item) for item in value]
-    return _Flow(value)
-
-
-def _table(table: Table) -> Any:
-    if len(table) > SHORT_TABLE:
-        return _Literal("".join(f"{piece}\n" for piece in table.lines(joined)))
-    return [_Flow(row) for row in table.rows()]
+    return [_node(item) for item in value] if isinstance(value[0], dict | list) else _Flow(value)
 
 
 def read(data: bytes, file: str) -> Deck:
