@@ -321,9 +321,9 @@ class _DocumentReader:
             block = Opaque.model_validate(item)
         except ValidationError as error:
             if declared and (corrected := respelt(item, declared, error)):
-                for inner, message in corrected.faults:
+                for inner, message in corrected[1]:
                     self.faults.respell((*path, *inner), message)
-                return corrected.block
+                return corrected[0]
             self.faults.extend(path, error)
             return None
         block.keyword = canonical_name("*" + block.keyword)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Sequence
 from copy import deepcopy
-from typing import Any, NamedTuple, NoReturn
+from typing import Any, NoReturn
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -130,17 +130,13 @@ def _unfit(placed: list[tuple[DocumentPath, ErrorDetails]], steps: dict[Document
 _QUOTED = re.compile(r"'([^']*)'")
 
 
-class Respelt(NamedTuple):
-    """A block as it was meant, and what is wrong in it as it is written."""
-
-    block: Block
-    faults: list[tuple[DocumentPath, str]]
+Misspelt = list[tuple[DocumentPath, str]]
 
 
-def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError) -> Respelt | None:
-    """The block that a document means; None where more is wrong in it than the spelling of names."""
+def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError) -> tuple[Block, Misspelt] | None:
+    """The block that a document means, and what is misspelt; None where more is wrong in it than that."""
     meant = deepcopy(given)
-    faults: list[tuple[DocumentPath, str]] = []
+    faults: Misspelt = []
     for fault in error.errors(include_url=False):
         path = path_in(given, fault["loc"])
         holder = _inside(meant, path[:-1])
@@ -155,7 +151,7 @@ def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError
                 faults.append((path, f"expected {expected}, found {shown(holder[last])}{hint(name)}"))
                 holder[last] = name
     try:
-        return Respelt(declared.model_validate(meant), faults) if faults else None
+        return (declared.model_validate(meant), faults) if faults else None
     except ValidationError:
         return None
 

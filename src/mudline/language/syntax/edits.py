@@ -25,11 +25,6 @@ class TextEdit(NamedTuple):
 class OverlapError(ValueError):
     """Overlap of two edits."""
 
-    def __init__(self, first: TextEdit, second: TextEdit) -> None:
-        self.first = first
-        self.second = second
-        super().__init__(f"edits overlap: {tuple(first.span)} and {tuple(second.span)}")
-
 
 def apply_edits(text: str, edits: Iterable[TextEdit]) -> str:
     """Return the text with all edits applied; the replacement texts are literal.
@@ -45,7 +40,7 @@ def apply_edits(text: str, edits: Iterable[TextEdit]) -> str:
         if not 0 <= start <= end <= len(text):
             raise ValueError(f"an edit of {tuple(edit.span)} does not lie in a text of {len(text)} characters")
         if before is not None and start < at:
-            raise OverlapError(before, edit)
+            raise OverlapError(f"edits overlap: {tuple(before.span)} and {tuple(edit.span)}")
         pieces += (text[at:start], edit.text)
         at, before = end, edit
     pieces.append(text[at:])

@@ -223,17 +223,15 @@ def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
         return body.decode("utf-8"), "utf-8", []
     except UnicodeDecodeError as error:
         start = error.start
-    for encoding, shown in (("cp1252", "CP1252"), ("latin-1", "Latin-1")):
-        try:
-            text = body.decode(encoding)
-        except UnicodeDecodeError:
-            continue
-        message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
-        severity = None if _FOREIGN_DATA.search(text) else Severity.INFO
-        if severity is None:
-            message += ", or give --encoding; a name that is not defined may be one read wrongly"
-        return text, encoding, [Problem(SYN012, message, Span(start, start + 1), severity)]
-    raise AssertionError("Latin-1 decodes every byte")
+    try:
+        text, encoding, shown = body.decode("cp1252"), "cp1252", "CP1252"
+    except UnicodeDecodeError:
+        text, encoding, shown = body.decode("latin-1"), "latin-1", "Latin-1"
+    message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
+    severity = None if _FOREIGN_DATA.search(text) else Severity.INFO
+    if severity is None:
+        message += ", or give --encoding; a name that is not defined may be one read wrongly"
+    return text, encoding, [Problem(SYN012, message, Span(start, start + 1), severity)]
 
 
 def _control_characters(text: str) -> list[Problem]:
