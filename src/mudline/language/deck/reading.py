@@ -6,7 +6,6 @@ import re
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
-from typing import TYPE_CHECKING, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
@@ -23,11 +22,6 @@ from mudline.language.keywords.text import TOO_WIDE, hint, instead
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, SyntaxTree, parse
-
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.ocean import Ocean
-    from mudline.language.keywords.library.units import Units
-
 
 _DATA = re.compile(r"[-+.,\d\s]+(?:[eEdD][-+]?\d+[-+.,\d\s]*)*$|\s*[A-Z][A-Z ]*=")
 """Line of numbers, or a setting: not a title."""
@@ -365,8 +359,8 @@ def units_of(deck: Deck) -> str:
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]
     for _, block in deck.blocks("UNITS", "ANALYSIS"):
-        if units := cast("Units", block).units:
-            return units.lower()
+        if block.units:
+            return str(block.units).lower()
     gravity = _of_ocean(deck, "gravity")
     system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
     if system == "metric" and suffix == ".keyx":
@@ -384,6 +378,6 @@ def _of_ocean(deck: Deck, name: str) -> float | None:
     parameters = Parameters(deck)
     last: float | None = None
     for _, ocean in deck.blocks("OCEAN"):
-        value = parameters.number(getattr(cast("Ocean", ocean), name))
+        value = parameters.number(getattr(ocean, name))
         last = value if value is not None else last
     return last

@@ -31,7 +31,7 @@ from mudline.language.keywords.text import (
 from mudline.language.keywords.values import UNKNOWN, Kind, Label, Names, Partly
 from mudline.language.syntax.fields import Field, FieldGroup, read_line, split, trimmed
 from mudline.language.syntax.grammars import ROW, Content, Node
-from mudline.language.syntax.rows import blank_separated, line_spans
+from mudline.language.syntax.rows import blank_separated, line_spans, row_fields
 
 _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
@@ -120,9 +120,7 @@ class Builder:
 
     def _settings(self, built: ParsedRecord, content: Content) -> None:
         line = read_line(self.text, content.span, slashes=self.slashes)
-        self.unclosed = None
-        if line.problems:
-            self._brackets(line.problems, built)
+        self._brackets(line.problems, built)
         if built.last is not None or issubclass(built.part, Block):
             keys = record_schema(built.part).keys
             order = min((keys[group.key].order for group in line.groups if group.key in keys), default=0)
@@ -276,11 +274,9 @@ class Builder:
             behind = [group for group in line.groups if group.key]
         else:
             fields, problems = split(self.text, span, slashes=self.slashes)
-        self.unclosed = None
-        if problems:
-            self._brackets(problems, built)
+        self._brackets(problems, built)
         if len(fields) == 1 and blank_separated(fields[0].text):
-            fields = self._apart(fields[0])
+            fields = row_fields(self.text, fields[0].span, len(fields[0].text))
         return fields, behind
 
     @staticmethod
@@ -361,7 +357,7 @@ class Builder:
         required, kinds = [slot.required for slot in columns], [slot.kind for slot in columns]
         fewest = fewest_fields(required)
         if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
-            fields = self._apart(fields[0])
+            fields = row_fields(self.text, fields[0].span, len(fields[0].text))
         while len(fields) > max(fewest, 1) and not fields[-1].text:
             fields.pop()
         if len(columns) > 1 and (problem := semicolons(self.text, fields)):
@@ -388,15 +384,6 @@ class Builder:
         else:
             self.report(SYN003, message, span)
         return fields[: len(columns)]
-
-    def _apart(self, field: Field) -> list[Field]:
-        start = field.span.start
-        fields: list[Field] = []
-        for word in field.text.split():
-            start = self.text.index(word, start)
-            fields.append(Field(word, start))
-            start += len(word)
-        return fields
 
     def _list(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], span: Span | None) -> None:
         """Read fields that are the values of one field."""

@@ -343,14 +343,9 @@ def _may_be(problem: Problem, text: str, content: Content) -> bool:
 
 def doubtful(problems: Sequence[Problem]) -> list[Problem]:
     """Return the problems of unknown words in kept lines: a warning for a word that may be misspelt, else an info."""
-    return [
-        problem
-        if problem.weight is not Severity.ERROR
-        else replace(
-            problem,
-            message=problem.message + _KEPT,
-            severity=Severity.WARNING if problem.repair else Severity.INFO,
-        )
-        for problem in problems
-        if problem.code is SYN005 or (problem.code is SYN004 and problem.repair)
-    ]
+    words = [each for each in problems if each.code is SYN005 or (each.code is SYN004 and each.repair)]
+    for index, problem in enumerate(words):
+        if problem.weight is Severity.ERROR:
+            severity = Severity.WARNING if problem.repair else Severity.INFO
+            words[index] = replace(problem, message=problem.message + _KEPT, severity=severity)
+    return words

@@ -92,12 +92,8 @@ class Undoing:
 
 def with_line_ends(source: Source, edits: Iterable[TextEdit]) -> list[TextEdit]:
     """Return the edits with each LF in their texts replaced by the line end of the nearest line before (CRLF stays)."""
-    return [
-        edit._replace(text=_LONE_LF.sub(line_end_before(source, edit.span.start), edit.text))
-        if "\n" in edit.text
-        else edit
-        for edit in edits
-    ]
+    ends = ((edit, line_end_before(source, edit.span.start)) for edit in edits)
+    return [edit._replace(text=_LONE_LF.sub(end, edit.text)) for edit, end in ends]
 
 
 def line_end_before(source: Source, offset: int) -> str:
