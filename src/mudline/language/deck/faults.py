@@ -158,10 +158,9 @@ def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError
 
 def _inside(value: Any, path: DocumentPath) -> object:
     for step in path:
-        try:
-            value = value[step]
-        except (LookupError, TypeError):
+        if not holds(value, step):
             return None
+        value = value[step]
     return value
 
 
@@ -178,5 +177,5 @@ def _keys(part: type[Part], path: DocumentPath) -> set[str]:
     for step in path:
         if isinstance(step, str):
             slots = [slot for each in parts for slot in record_schema(each).slots if slot.json == step]
-            parts = [inner for slot in slots for inner in (slot.row, *slot.record.values()) if inner]
+            parts = [inner for slot in slots for inner in slot.parts]
     return {slot.json for each in parts for slot in record_schema(each).slots}

@@ -397,17 +397,12 @@ class _Evaluator:
             elif self.blocks is Blocks.ALWAYS:  # the problem is reported at the parameter's definition
                 self.lacks_parameter = True
             return nothing
-        if isinstance(value, str):
-            if kind is Kind.REAL_OR_NAME:
-                return value
+        if isinstance(value, str) and kind is not Kind.REAL_OR_NAME:
             message = f"{equation} gives the text {value!r}: {label} needs a number"
-            self.problems.append(Problem(SYN002, message, where=where, blocks=self.blocks))
-            return nothing
-        if not whole:
-            return value
-        if value.is_integer():
-            return int(value)
-        message = f"{equation} gives {value!r}: {label} needs a whole number"
+        elif whole and isinstance(value, float) and not value.is_integer():
+            message = f"{equation} gives {value!r}: {label} needs a whole number"
+        else:
+            return int(value) if whole else value
         self.problems.append(Problem(SYN002, message, where=where, blocks=self.blocks))
         return nothing
 

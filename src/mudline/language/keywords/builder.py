@@ -132,12 +132,7 @@ class Builder:
         """Read the settings of a line."""
         schema = record_schema(built.part)
         first = schema.keys.get(groups[0].key) if groups else None
-        if (
-            first
-            and first.kind is _OTHER
-            and first.json not in built.values
-            and self._of_other_form(built, first, groups)
-        ):
+        if first and first.kind is _OTHER and self._of_other_form(built, first, groups):
             return
         if first and first.kind is _TITLE and groups[0].fields[0].text:
             self._rest_of_line(built, first, groups)
@@ -163,7 +158,9 @@ class Builder:
     def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[FieldGroup]) -> bool:
         """Read a line whose setting announces an unknown form: all text after its key is one value."""
         fields = groups[0].fields
-        if slot.about.opaque is None or not fields[0].text or (len(groups) == 1 and len(fields) == 1):
+        if slot.about.opaque is None or slot.json in built.values:
+            return False
+        if not fields[0].text or (len(groups) == 1 and len(fields) == 1):
             return False
         value = read_value(fields[0], slot, [])
         if value in slot.choices and value not in slot.about.opaque:

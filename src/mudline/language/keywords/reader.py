@@ -281,10 +281,8 @@ class _BlockParser:
         span = trimmed(self.text, *mismatch.found.span)
         if mismatch.missing:
             expected = self._describe(mismatch.missing)
-            message = f"expected {expected} before this line: write {expected} and its value above it"
-            if mismatch.missing == ROW:
-                message = f"expected {expected} before this line"
-            self.problems.append(Problem(SYN001, message, span))
+            advice = "" if mismatch.missing == ROW else f": write {expected} and its value above it"
+            self.problems.append(Problem(SYN001, f"expected {expected} before this line{advice}", span))
             return
         line = "a row" if mismatch.found.type == ROW else f"{first_key(self.text, mismatch.found.span)}="
         message = f"*{self.raw.name} has no place for {line} here: expected {expected}"
