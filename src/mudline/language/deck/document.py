@@ -24,7 +24,7 @@ from mudline.language.keywords.contents import is_read, is_refused
 from mudline.language.keywords.faults import DocumentPath, shown
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.table import AS_TABLES, Table
+from mudline.language.keywords.table import AS_TABLES, plain
 from mudline.language.keywords.text import hint
 from mudline.language.keywords.values import Text
 from mudline.language.syntax.source import Source
@@ -56,16 +56,7 @@ def _require_readable(deck: Deck) -> None:
     for one, whole in zip(light.sections, deck.sections, strict=True):
         pairs = zip(one.blocks, whole.blocks, strict=True)
         one.blocks = [block if is_refused(block) else each for each, block in pairs]
-    _DocumentReader(_plain(_document(light)), deck.file, locate).read()
-
-
-def _plain(value: Any) -> Any:
-    """A document with its tables as lists."""
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, Table):
-        return value.rows()
-    return [_plain(item) for item in value] if isinstance(value, list) else value
+    _DocumentReader(plain(_document(light)), deck.file, locate).read()
 
 
 def _document(deck: Deck) -> Document:

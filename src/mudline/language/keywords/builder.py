@@ -401,8 +401,7 @@ class Builder:
 
 def _value_of(slot: FieldSpec) -> str:
     """Return a placeholder for the value of a setting: the kind of its name, if any."""
-    names = getattr(slot.about, "names", None)
-    if names is Names.SET:
+    if slot.about.names is Names.SET:
         return ": write the name of a set after it (ALL is every element)"
     return ": write the name of the set after it" if slot.key == "SET" else ""
 

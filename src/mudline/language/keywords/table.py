@@ -370,7 +370,7 @@ def plain(value: Any) -> Any:
         return value.tolist()
     if isinstance(value, list | tuple | Table):
         return [plain(each) for each in value]
-    return value
+    return {name: plain(each) for name, each in value.items()} if isinstance(value, dict) else value
 
 
 def row_format(labels: list[str], required: list[bool]) -> str:

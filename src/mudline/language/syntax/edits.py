@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from itertools import accumulate, islice
 from typing import NamedTuple
 
@@ -153,7 +153,9 @@ def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
     Columns that are in line only because all fields are of equal length are not aligned.
     """
     span = row.fields[index].span
-    neighbours = [(line.fields[index].span, line.start) for line in _neighbours(source, span, index)]
+    line = source.position(span.start)[0]
+    near_rows = [_row(source, number) for number in (line - 1, line + 1) if 1 <= number <= len(source.line_starts)]
+    neighbours = [(near.fields[index].span, near.start) for near in near_rows if near and index < len(near.fields)]
     if any(span.end - row.start == near.end - start for near, start in neighbours):
         return _wide_blanks_before(source, row, span)
     if index + 1 < len(row.fields) and any(span.start - row.start == near.start - start for near, start in neighbours):
@@ -166,15 +168,6 @@ def _wide_blanks_before(source: Source, row: _Row, span: Span) -> Span | None:
     before = source.text[row.start : span.start]
     length = len(before) - len(before.rstrip(" "))
     return Span(span.start - length, span.start) if length > 1 and "\t" not in before else None
-
-
-def _neighbours(source: Source, span: Span, index: int) -> Iterator[_Row]:
-    """Yield the rows directly above and below that have a field of this index."""
-    line = source.position(span.start)[0]
-    for number in (line - 1, line + 1):
-        row = _row(source, number) if 1 <= number <= len(source.line_starts) else None
-        if row is not None and index < len(row.fields):
-            yield row
 
 
 def _row(source: Source, number: int) -> _Row | None:
