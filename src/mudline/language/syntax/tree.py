@@ -130,20 +130,16 @@ def parse(source: Source) -> SyntaxTree:
     sections: list[RawSection] = []
     leaves = section.leaves
     for line in _lines().finditer(source.unified):
-        kind = _KINDS[line.lastgroup]
+        kind = LeafKind(line.lastgroup)
         leaf = Leaf(kind, Span(*line.span()))
-        if kind is _SECTION:
+        if kind is LeafKind.SECTION:
             section = RawSection(leaf, canonical_name(line[0]))
             sections.append(section)
             leaves = section.leaves
-        elif kind is _KEYWORD:
+        elif kind is LeafKind.KEYWORD:
             block = RawBlock(leaf, canonical_name(line[0]))
             section.blocks.append(block)
             leaves = block.leaves
         else:
             leaves.append(leaf)
     return SyntaxTree(source, preamble, tuple(sections))
-
-
-_KINDS: dict[str | None, LeafKind] = {kind.value: kind for kind in LeafKind}
-_SECTION, _KEYWORD = LeafKind.SECTION, LeafKind.KEYWORD
