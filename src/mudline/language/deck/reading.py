@@ -376,8 +376,5 @@ _TONNES = (0.9, 1.3)
 def _of_ocean(deck: Deck, name: str) -> float | None:
     """Return a value of the last `*OCEAN` that has it, evaluated; None if there is none."""
     parameters = Parameters(deck)
-    last: float | None = None
-    for _, ocean in deck.blocks("OCEAN"):
-        value = parameters.number(getattr(ocean, name))
-        last = value if value is not None else last
-    return last
+    values = [parameters.number(getattr(ocean, name)) for _, ocean in deck.blocks("OCEAN")]
+    return next((value for value in reversed(values) if value is not None), None)

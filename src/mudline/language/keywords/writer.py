@@ -27,15 +27,10 @@ def block_lines(block: Block) -> Iterator[str]:
 def _record_lines(record: Record) -> Iterator[str]:
     """Yield the opening setting of a record, if its first field is one, then its items."""
     items = list(_items(record))
-    if _opens(record) and items:
+    given = (slot.about for slot in record_schema(type(record)).slots if getattr(record, slot.name) is not None)
+    if items and isinstance(next(given, None), Setting):
         yield from items.pop(0)[0]
     yield from with_comments(record.comments, items, getattr(record, "unread", ()))
-
-
-def _opens(record: Record) -> bool:
-    schema = record_schema(type(record))
-    first = next((slot for slot in schema.slots if getattr(record, slot.name) is not None), None)
-    return first is not None and isinstance(first.about, Setting)
 
 
 def with_comments(comments: list[Comment], items: Iterable[Item], kept: Iterable[KeptLine] = ()) -> Iterator[str]:
