@@ -328,10 +328,6 @@ def _has_lines(section: Section) -> bool:
     return bool(has_lines) or any(isinstance(block, Opaque) or not is_read(block) for block in section.blocks)
 
 
-DIALECT = "https://json-schema.org/draft/2020-12/schema"
-_REFERENCE = "#/$defs/{model}"
-
-
 def json_schema() -> dict[str, Any]:
     """Return the schema: document, sections, every block with a model, the block without a model.
 
@@ -339,7 +335,7 @@ def json_schema() -> dict[str, Any]:
     """
     blocks = catalogue.block_classes()
     models: list[type[BaseModel]] = [*blocks, Opaque, Comment]
-    schemas, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
+    schemas, schema = models_json_schema([(model, "validation") for model in models], ref_template="#/$defs/{model}")
     references = {model: schemas[model, "validation"] for model in models}
     for block in blocks:
         definition = schema["$defs"][references[block]["$ref"].rsplit("/", 1)[1]]
@@ -376,7 +372,7 @@ def json_schema() -> dict[str, Any]:
         required=("format", "sections"),
     )
     return {
-        "$schema": DIALECT,
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "mudline deck",
         **document,
         "$defs": {**schema["$defs"], "Section": section},

@@ -269,11 +269,8 @@ class Deck:
 
     def _in_order(self) -> Iterable[tuple[int, Section]]:
         """Return the sections with their numbers, those of continued decks first."""
-        numbered = enumerate(self.sections)
-        if not self.bases:
-            return numbered
         own = len(self.own_sections)
-        return sorted(numbered, key=lambda placed: placed[0] < own)
+        return sorted(enumerate(self.sections), key=lambda placed: placed[0] < own)
 
     def every_block(self) -> list[tuple[Where, str, Block | Opaque]]:
         """Return the blocks of all sections in order, read or not: place, name of the section, block."""

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
 
 Value = float | str
-_CONVERT = "convert"
-"""Name of a function whose arguments are not published: a deck that calls it has no fault for that reason."""
 PLACEHOLDER = re.compile(r"%([^%]+)%")
 """Placeholder in a text: the name of a parameter, to be replaced by its value."""
 _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*\]|"[^"]*"|[^\s,]+)""")
@@ -244,7 +242,8 @@ class Parameters:
         except UnknownFunction as error:
             problem = _problem(expression.text, error, where)
             message = f"{problem.message}; the equation is not evaluated"
-            convert = expression.text[error.start : error.end].strip().casefold() == _CONVERT
+            # its arguments are not published: a deck that calls it has no fault for that reason
+            convert = expression.text[error.start : error.end].strip().casefold() == "convert"
             severity = Severity.INFO if convert else Severity.WARNING
             raise NoValueError(Problem(SYN017, message, None, severity, where)) from error
         except ExpressionError as error:

@@ -34,7 +34,6 @@ _SPACED = re.compile(r"[ \t]*[-+.\d][-+.\deE]*[ \t]+[-+.\d]")
 _NOT_READ = ("lines", "unread")
 """First step of the path to an unread line: of a block without a model, or kept by a model."""
 _ENDS = 2
-_OF_EVERY_BLOCK = {"keyword", "comments"}
 _NUMBERS = re.compile(r"(?=.*[,\d])(?:[,* ]++|[-+.\d][-+.\dED]*+)*+")
 """Rest of a line that begins with asterisks in place of a number: numbers, or asterisks behind a comma."""
 
@@ -238,7 +237,7 @@ class _DeckReader:
         read = self.read_block(self.text, raw, declared, last=last)
         head = trimmed(self.text, *raw.head.span) if last and not raw.leaves else None
         empty = head and not read.problems and head.end == len(self.text)
-        if empty and set(declared.model_fields) - _OF_EVERY_BLOCK:
+        if empty and set(declared.model_fields) - {"keyword", "comments"}:
             message = f"the file ends after *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head, Severity.WARNING))
         self.problems += read.problems
@@ -255,8 +254,8 @@ class _DeckReader:
 
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
         section.blocks.append(Opaque(keyword=raw.name, lines=self.origin.lines_of(where)))
-        head = trimmed(self.text, *raw.head.span)
-        if head.end == len(self.text) and catalogue.begins_keyword(raw.name):
+        head, known = trimmed(self.text, *raw.head.span), catalogue.keywords()
+        if head.end == len(self.text) and raw.name not in known and any(each.startswith(raw.name) for each in known):
             message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head))
             return

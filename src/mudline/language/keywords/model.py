@@ -285,9 +285,6 @@ class Block(Record):
     keyword: str
 
 
-_OF_TEXT = (Kind.NAME, Kind.TITLE, Kind.OTHER)
-
-
 @dataclass(slots=True)
 class FieldSpec:
     """Field of a part for reader and writer; `of_list` is True in a `ListRow`."""
@@ -318,7 +315,8 @@ class FieldSpec:
     @property
     def is_text(self) -> bool:
         """True if the values can only be names and words."""
-        return not self.row and (self.kind in _OF_TEXT or (self.kind is None and bool(self.choices)))
+        words = self.kind in (Kind.NAME, Kind.TITLE, Kind.OTHER) or (self.kind is None and bool(self.choices))
+        return words and not self.row
 
     @property
     def columns(self) -> list[Column]:

@@ -304,7 +304,6 @@ def _write(record: ParsedRecord, lines: list[Between]) -> None:
 
 _OF_OTHER_FORMS = frozenset({SYN001, SYN002, SYN003, SYN004, SYN005})
 """Faults that a line of an unknown form may cause."""
-_KEPT = "; the line is passed through unchanged"
 
 
 def of_other_form(
@@ -347,5 +346,6 @@ def doubtful(problems: Sequence[Problem]) -> list[Problem]:
     for index, problem in enumerate(words):
         if problem.weight is Severity.ERROR:
             severity = Severity.WARNING if problem.repair else Severity.INFO
-            words[index] = replace(problem, message=problem.message + _KEPT, severity=severity)
+            message = f"{problem.message}; the line is passed through unchanged"
+            words[index] = replace(problem, message=message, severity=severity)
     return words

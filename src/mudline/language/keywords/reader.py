@@ -205,8 +205,6 @@ class _BlockParser:
                     contents += [Content(ROW, line) for line in line_spans(self.text, span)]
                 case LeafKind.RUN | LeafKind.TEXT:
                     contents.append(Content(ROW, span))
-                case _:
-                    pass
         return contents
 
     def _keep_all(self, odd: Collection[Content], contents: list[Content]) -> None:
@@ -317,8 +315,8 @@ def all_keys(part: type[Part]) -> frozenset[str]:
 @cache
 def older_keys(part: type[Part]) -> frozenset[str]:
     """Return the KEYs that only decks of the older program have."""
-    fields = (slots.items() for slots in (schema.keys for schema in schemas_of(part)))
-    return frozenset(key for slots in fields for key, slot in slots if slot.about.older is True)
+    fields = (field for schema in schemas_of(part) for field in schema.keys.items())
+    return frozenset(key for key, slot in fields if slot.about.older is True)
 
 
 def schemas_of(part: type[Part]) -> list[RecordSchema]:

@@ -32,7 +32,6 @@ _CALLED = {
 _LONE_CR = re.compile(r"\r(?!\n)")
 _FOREIGN_DATA = re.compile(r"(?:\A|(?<=[\r\n]))(?!C(?:[^A-Za-z]|\Z))[^\r\n]*[^\x00-\x7f]")
 """Non-ASCII letter in a line that is not a comment."""
-_NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 BINARY = "the file looks like binary data"
 """Beginning of the message that refuses such a file."""
 _BINARY_SHARE = 0.1
@@ -227,7 +226,7 @@ def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
         text, encoding, shown = body.decode("cp1252"), "cp1252", "CP1252"
     except UnicodeDecodeError:
         text, encoding, shown = body.decode("latin-1"), "latin-1", "Latin-1"
-    message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
+    message = f"byte 0x{body[start]:02X} is not UTF-8; the file is read as {shown}: save it as UTF-8"
     severity = None if _FOREIGN_DATA.search(text) else Severity.INFO
     if severity is None:
         message += ", or give --encoding; a name that is not defined may be one read wrongly"

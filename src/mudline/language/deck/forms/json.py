@@ -19,8 +19,6 @@ from mudline.language.keywords.faults import DocumentPath
 from mudline.language.keywords.table import Table
 from mudline.language.syntax.source import Source
 
-_INDENT = " "
-
 
 def to_json(deck: Deck) -> str:
     """The deck as JSON text: a line for each value, rows of a table on one line."""
@@ -31,7 +29,7 @@ write = to_json  # as `dump` knows it
 
 
 def _pretty(value: Any, indent: str) -> Iterator[str]:
-    inner = indent + _INDENT
+    inner = f"{indent} "
     if isinstance(value, dict) and value:
         mark = "{\n"
         for key, item in value.items():
