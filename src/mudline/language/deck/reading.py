@@ -346,7 +346,6 @@ class _DeckReader:
 
 _SUFFIXES = {".keyxm": "metric", ".keyxi": "imperial"}
 GRAVITIES = {"metric": 9.81, "imperial": 32.2}
-_NEAR = 0.02
 
 
 def units_of(deck: Deck) -> str:
@@ -361,7 +360,7 @@ def units_of(deck: Deck) -> str:
         if block.units:
             return str(block.units).lower()
     gravity = _of_ocean(deck, "gravity")
-    system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
+    system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= 0.02 * g), "user")
     if system == "metric" and suffix == ".keyx":
         density = _of_ocean(deck, "density")
         return "user" if density is not None and _TONNES[0] <= density <= _TONNES[1] else system

@@ -311,13 +311,12 @@ class OpaqueKeyword:
     zero_length: bool = False
 
 
-_LETTERS = str.maketrans("OolI", "0011")
 _WITH_LETTERS = re.compile(r"(?=[^.]*[0-9])[-+]?[0-9OolI]+\.[0-9OolI]*[0-9][0-9OolI]*(?:[eEdD][-+]?[0-9]+)?")
 
 
 def number_meant(text: str) -> str:
     """Return the number that was meant by a text with letters in place of digits and a point, or ""."""
-    number = text.translate(_LETTERS)
+    number = text.translate(str.maketrans("OolI", "0011"))
     return number if number != text and _WITH_LETTERS.fullmatch(text) else ""
 
 

@@ -144,7 +144,6 @@ def _heads_found(text: str) -> str:
     return "".join((*pieces, text[done:])) if pieces else text
 
 
-_MERGE_MARKS = ("<<<<<<<", ">>>>>>>", "|||||||")
 _MERGE_MARK = re.compile(r"(?:\A|(?<=[\r\n]))(?:<{7}|>{7}|\|{7})(?=[ \r\n]|\Z)")
 KEY_FILE = re.compile(r"\s*<\?xml[^>]*>\s*<KeyFile\b")
 """Beginning of a key file of a password manager, which has a suffix of decks."""
@@ -166,7 +165,7 @@ def _not_a_deck(text: str) -> Problem | None:
     """Return the problem of a text that is not a deck; None if it may be a deck."""
     if match := _NO_DECK.match(text):
         return Problem(SYN018, _INSTEAD[str(match.lastgroup)], Span(*match.span()))
-    marks = any(mark in text for mark in _MERGE_MARKS)  # the pattern is slow in a large file
+    marks = any(mark in text for mark in ("<<<<<<<", ">>>>>>>", "|||||||"))  # the pattern is slow in a large file
     if marks and (match := _MERGE_MARK.search(text)):
         message = "a merge conflict is not solved: keep one of its versions, and remove its marks"
         return Problem(SYN018, message, Span(*match.span()))
