@@ -289,11 +289,11 @@ def range_faults(part: Part) -> Iterator[tuple[Path, str]]:
         if isinstance(value, Table):
             for index, column in enumerate(record_schema(cast("type[Part]", slot.row)).columns):
                 values = value.column(index) if column.about.limits else np.zeros(0)
-                low, high = column.about.span
+                low, high = column.span
                 for row in np.flatnonzero((values < low) | (values > high)).tolist():
                     yield (*path, row, index), range_fault(float(values[row]), column)
-        elif isinstance(value, float | int) and (fault := range_fault(value, slot)):
-            yield path, fault
+        elif isinstance(value, float | int) and (value < slot.span[0] or value > slot.span[1]):
+            yield path, range_fault(value, slot)
 
 
 def _is_ranged(slot: FieldSpec) -> bool:

@@ -300,6 +300,7 @@ class FieldSpec:
     many: bool
     order: int
     usuals: tuple[Usual, ...]
+    span: tuple[float, float]
     of_list: bool = False
 
     @property
@@ -384,6 +385,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
             many=is_list(info.annotation),
             order=order,
             usuals=about.usuals,
+            span=about.span,
             of_list=issubclass(part, ListRow),
         )
         schema.slots.append(slot)

@@ -36,7 +36,6 @@ BINARY = "the file looks like binary data"
 """Beginning of the message that refuses such a file."""
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
-_LINE_FEED = re.compile("\n")
 _FEW = 8
 
 
@@ -96,7 +95,7 @@ class Source:
     def line_starts(self) -> array[int]:
         """Offset of the first character of every line; CR, CRLF and LF each end one."""
         starts = array("q", [0])
-        starts.extend(map(methodcaller("end"), _LINE_FEED.finditer(self.unified)))
+        starts.extend(map(methodcaller("end"), re.finditer("\n", self.unified)))
         return starts
 
     def position(self, offset: int) -> tuple[int, int]:

@@ -16,7 +16,6 @@ from mudline.language.syntax.grammars import parser
 from mudline.language.syntax.source import CONTROLS, Source
 
 _BLANKS = re.compile(r"[ \t]+")
-_COMMA = re.compile(r" *, *")
 
 
 class LeafKind(Enum):
@@ -112,7 +111,7 @@ def matchable(pattern: str) -> str:
 def canonical_name(line: str) -> str:
     """Return the name on a `$` or `*` line: upper case, single blanks, no blanks around a comma."""
     name = _BLANKS.sub(" ", line.lstrip(f" \t{CONTROLS}").rstrip(" \t\r\n")[1:].strip(" \t"))
-    return _COMMA.sub(",", name).upper()
+    return re.sub(r" *, *", ",", name).upper()
 
 
 def mark_of(line: str) -> str:
