@@ -8,7 +8,7 @@ from textwrap import fill
 
 from mudline.checks.engine import lint_bytes
 from mudline.language.diagnostics import Diagnostic
-from mudline.language.rules import Rule
+from mudline.language.rules import Rule, RulePage
 from tests.docs.marking import MADE, marked
 
 _WIDTH = 90
@@ -116,9 +116,18 @@ def rule_page(rule: Rule) -> str:
         off=", off unless selected" if rule.off else "",
         title=marked(rule.page.title),
         why=marked(rule.page.why),
-        remark=f" ({rule.page.remark})" if rule.page.remark else "",
+        remark=f" ({remark})" if (remark := _remark(rule.page)) else "",
         bad=rule.page.bad.rstrip("\n"),
         says="\n".join(map(_wrapped, _found(rule))),
         fix=_fix(rule),
         good=rule.page.good.rstrip("\n"),
     )
+
+
+def _remark(page: RulePage) -> str:
+    """Return the property of the bad deck's file that its text does not show, or ""."""
+    if page.dialect != "mudline":
+        return f"with --dialect {page.dialect}"
+    if page.encoding != "utf-8":
+        return f"saved as {page.encoding.upper()}"
+    return "" if page.bad.endswith("\n") else "the file ends without a line end"

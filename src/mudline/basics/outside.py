@@ -18,7 +18,6 @@ _NO_FILES = ("/proc", "/sys", "/dev")
 """Folders of virtual files, whose content the system makes when they are read."""
 
 _NO_TEXT = "its text is not shown, as the file lies outside of the project"
-_AT_LINE = re.compile(r"line \d+")
 
 _REFUSES: ContextVar[Callable[[Path], bool] | None] = ContextVar("refuses", default=None)
 
@@ -59,5 +58,5 @@ def without_text(fault: str, path: Path, folder: Path | None) -> str:
     """Return the description of a fault in a file; for a file outside the project only the line, without its text."""
     if folder is None or not is_outside(path, folder):
         return fault
-    line = _AT_LINE.search(fault)
+    line = re.search(r"line \d+", fault)
     return f"{line[0]} is not as it should be; {_NO_TEXT}" if line else f"it is not as it should be; {_NO_TEXT}"

@@ -30,14 +30,10 @@ class UnitNames(NamedTuple):
         return f" {unit}" if unit else ""
 
 
-_METRIC = UnitNames("m", "N", "N/m", "N/m2")
-_IMPERIAL = UnitNames("ft", "lbf", "lbf/ft", "lbf/ft2")
-_NONE = UnitNames("", "", "", "")
-
-
 def unit_names(units: str) -> UnitNames:
     """Return the unit names of "metric", "imperial" or "user" units."""
-    return {"metric": _METRIC, "imperial": _IMPERIAL}.get(units, _NONE)
+    metric, imperial = UnitNames("m", "N", "N/m", "N/m2"), UnitNames("ft", "lbf", "lbf/ft", "lbf/ft2")
+    return {"metric": metric, "imperial": imperial}.get(units, UnitNames("", "", "", ""))
 
 
 def time_unit(units: str) -> str:

@@ -54,20 +54,6 @@ class RulePage(NamedTuple):
         """Bytes of the bad deck's file."""
         return self.bad.encode(self.encoding)
 
-    @property
-    def good_bytes(self) -> bytes:
-        """Bytes of the good deck's file."""
-        return self.good.encode()
-
-    @property
-    def remark(self) -> str:
-        """Property of the bad deck's file that its text does not show, or ""."""
-        if self.dialect != "mudline":
-            return f"with --dialect {self.dialect}"
-        if self.encoding != "utf-8":
-            return f"saved as {self.encoding.upper()}"
-        return "" if self.bad.endswith("\n") else "the file ends without a line end"
-
 
 class Rule(NamedTuple):
     """Rule: code, function that checks, and the docstring that becomes its page.
@@ -168,7 +154,7 @@ def described_by(code: Code, docstring: str) -> RulePage:
         encoding=words.get("Bytes", "utf-8"),
         dialect=words.get("Dialect", "mudline"),
     )
-    if described.bad_bytes == described.good_bytes:
+    if described.bad_bytes == good.encode():
         raise ValueError(f"the decks of the example of {code.code} must differ in a line with - or +")
     return described
 

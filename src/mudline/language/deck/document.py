@@ -24,7 +24,7 @@ from mudline.language.keywords.contents import is_read, is_refused
 from mudline.language.keywords.faults import DocumentPath, shown
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.table import AS_TABLES, Table
+from mudline.language.keywords.table import AS_TABLES, plain
 from mudline.language.keywords.text import hint
 from mudline.language.keywords.values import Text
 from mudline.language.syntax.source import Source
@@ -56,16 +56,7 @@ def _require_readable(deck: Deck) -> None:
     for one, whole in zip(light.sections, deck.sections, strict=True):
         pairs = zip(one.blocks, whole.blocks, strict=True)
         one.blocks = [block if is_refused(block) else each for each, block in pairs]
-    _DocumentReader(_plain(_document(light)), deck.file, locate).read()
-
-
-def _plain(value: Any) -> Any:
-    """A document with its tables as lists."""
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, Table):
-        return value.rows()
-    return [_plain(item) for item in value] if isinstance(value, list) else value
+    _DocumentReader(plain(_document(light)), deck.file, locate).read()
 
 
 def _document(deck: Deck) -> Document:
@@ -321,9 +312,9 @@ class _DocumentReader:
             block = Opaque.model_validate(item)
         except ValidationError as error:
             if declared and (corrected := respelt(item, declared, error)):
-                for inner, message in corrected.faults:
+                for inner, message in corrected[1]:
                     self.faults.respell((*path, *inner), message)
-                return corrected.block
+                return corrected[0]
             self.faults.extend(path, error)
             return None
         block.keyword = canonical_name("*" + block.keyword)
@@ -337,10 +328,6 @@ def _has_lines(section: Section) -> bool:
     return bool(has_lines) or any(isinstance(block, Opaque) or not is_read(block) for block in section.blocks)
 
 
-DIALECT = "https://json-schema.org/draft/2020-12/schema"
-_REFERENCE = "#/$defs/{model}"
-
-
 def json_schema() -> dict[str, Any]:
     """Return the schema: document, sections, every block with a model, the block without a model.
 
@@ -348,7 +335,7 @@ def json_schema() -> dict[str, Any]:
     """
     blocks = catalogue.block_classes()
     models: list[type[BaseModel]] = [*blocks, Opaque, Comment]
-    schemas, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
+    schemas, schema = models_json_schema([(model, "validation") for model in models], ref_template="#/$defs/{model}")
     references = {model: schemas[model, "validation"] for model in models}
     for block in blocks:
         definition = schema["$defs"][references[block]["$ref"].rsplit("/", 1)[1]]
@@ -385,7 +372,7 @@ def json_schema() -> dict[str, Any]:
         required=("format", "sections"),
     )
     return {
-        "$schema": DIALECT,
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "mudline deck",
         **document,
         "$defs": {**schema["$defs"], "Section": section},

@@ -54,14 +54,11 @@ class EditableDeck(Deck):
         if len(blocks) > 1:
             raise ValueError(f"the deck has {len(blocks)} blocks of *{name}: go through deck.blocks({name!r})")
         if not blocks:
-            there = {block.keyword for each in self.sections for block in each.blocks}
+            if any(block.keyword == name for _, _, block in self.every_block()):
+                raise UnknownNameError(f"the lines of *{name} are not read: the deck keeps them as they are")
             known = catalogue.sections_of(name) is not None
             near = "" if known else catalogue.suggest_keyword(name)
-            raise UnknownNameError(
-                f"the lines of *{name} are not read: the deck keeps them as they are"
-                if name in there
-                else f"the deck has no *{name}{hint(near)}"
-            )
+            raise UnknownNameError(f"the deck has no *{name}{hint(near)}")
         return blocks[0]
 
     def add(self, block: Block, section: str | None = None) -> None:

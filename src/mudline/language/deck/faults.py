@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Sequence
 from copy import deepcopy
-from typing import Any, NamedTuple, NoReturn
+from typing import Any, NoReturn
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -13,8 +13,8 @@ from pydantic_core import ErrorDetails
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.spelling import meant_names
 from mudline.language.codes import DOC001, DOC002
-from mudline.language.deck.model import START, Deck, Origin, Range
-from mudline.language.diagnostics import MORE, DeckError, Diagnostic, Problem, Span, Where
+from mudline.language.deck.model import START, Deck, Range, printable
+from mudline.language.diagnostics import MORE, DeckError, Diagnostic, Where
 from mudline.language.keywords.faults import DocumentPath, fault_in_words, holds, path_in, path_text, shown
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.text import hint
@@ -32,16 +32,6 @@ def document_path(where: Where) -> DocumentPath:
     section, block, path = where
     start: DocumentPath = () if section < 0 else ("sections", section)
     return (*start, *(() if block < 0 else ("blocks", block)), *path)
-
-
-class _Numbered(Origin):
-    """Places of problems whose span is the number of the place."""
-
-    def __init__(self, places: list[Range]) -> None:
-        self.places = places
-
-    def place(self, problem: Problem) -> Range:
-        return self.places[problem.span.start] if problem.span else START
 
 
 class MisspeltDeckError(DeckError):
@@ -107,9 +97,9 @@ class Faults:
         raise DeckError(self._diagnosed())
 
     def _diagnosed(self) -> list[Diagnostic]:
-        places = [place for place, _ in self.found]
-        problems = [Problem(DOC002, message, Span(number, number)) for number, (_, message) in enumerate(self.found)]
-        return Deck(self.file, origin=_Numbered(places)).diagnose(problems)
+        kind = DOC002.code, DOC002.slug, DOC002.severity
+        found = (Diagnostic(self.file, *kind, printable(words), *place, blocks=True) for place, words in self.found)
+        return sorted(found, key=lambda diagnostic: diagnostic.sort_key)
 
     def _alternatives(self, loc: DocumentPath, given: int, kind: str) -> set[int]:
         """Which steps of a path, behind the given ones, are names of alternatives that pydantic puts in."""
@@ -140,17 +130,13 @@ def _unfit(placed: list[tuple[DocumentPath, ErrorDetails]], steps: dict[Document
 _QUOTED = re.compile(r"'([^']*)'")
 
 
-class Respelt(NamedTuple):
-    """A block as it was meant, and what is wrong in it as it is written."""
-
-    block: Block
-    faults: list[tuple[DocumentPath, str]]
+Misspelt = list[tuple[DocumentPath, str]]
 
 
-def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError) -> Respelt | None:
-    """The block that a document means; None where more is wrong in it than the spelling of names."""
+def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError) -> tuple[Block, Misspelt] | None:
+    """The block that a document means, and what is misspelt; None where more is wrong in it than that."""
     meant = deepcopy(given)
-    faults: list[tuple[DocumentPath, str]] = []
+    faults: Misspelt = []
     for fault in error.errors(include_url=False):
         path = path_in(given, fault["loc"])
         holder = _inside(meant, path[:-1])
@@ -165,17 +151,16 @@ def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError
                 faults.append((path, f"expected {expected}, found {shown(holder[last])}{hint(name)}"))
                 holder[last] = name
     try:
-        return Respelt(declared.model_validate(meant), faults) if faults else None
+        return (declared.model_validate(meant), faults) if faults else None
     except ValidationError:
         return None
 
 
 def _inside(value: Any, path: DocumentPath) -> object:
     for step in path:
-        try:
-            value = value[step]
-        except (LookupError, TypeError):
+        if not holds(value, step):
             return None
+        value = value[step]
     return value
 
 
@@ -192,5 +177,5 @@ def _keys(part: type[Part], path: DocumentPath) -> set[str]:
     for step in path:
         if isinstance(step, str):
             slots = [slot for each in parts for slot in record_schema(each).slots if slot.json == step]
-            parts = [inner for slot in slots for inner in (slot.row, *slot.record.values()) if inner]
+            parts = [inner for slot in slots for inner in slot.parts]
     return {slot.json for each in parts for slot in record_schema(each).slots}

@@ -269,11 +269,8 @@ class Deck:
 
     def _in_order(self) -> Iterable[tuple[int, Section]]:
         """Return the sections with their numbers, those of continued decks first."""
-        numbered = enumerate(self.sections)
-        if not self.bases:
-            return numbered
         own = len(self.own_sections)
-        return sorted(numbered, key=lambda placed: placed[0] < own)
+        return sorted(enumerate(self.sections), key=lambda placed: placed[0] < own)
 
     def every_block(self) -> list[tuple[Where, str, Block | Opaque]]:
         """Return the blocks of all sections in order, read or not: place, name of the section, block."""
@@ -304,8 +301,12 @@ class Deck:
         return sorted(map(self._diagnosed, problems), key=lambda diagnostic: diagnostic.sort_key)
 
     def _diagnosed(self, problem: Problem) -> Diagnostic:
-        finding = _diagnostic(*self._owned(problem))
-        return replace(finding, following=tuple(self.diagnose(problem.following))) if problem.following else finding
+        deck, own = self._owned(problem)
+        code, place = own.code, deck.origin.place_in_file(own)
+        fix = _fix(deck.origin, own.repair, code) if own.repair and deck.origin.takes_edits else None
+        blocks, following = own.blocking is not Blocks.NEVER, tuple(self.diagnose(problem.following))
+        message = printable(own.message)
+        return Diagnostic(deck.file, code.code, code.slug, own.weight, message, *place, fix, blocks, following)
 
     def require(self) -> Self:
         """Return the deck itself; raises DeckError if a part of it could not be read."""
@@ -368,15 +369,9 @@ class BaseProblem(Problem):
     __repr__ = short_repr
 
 
-def _diagnostic(deck: Deck, problem: Problem) -> Diagnostic:
-    code: Code = problem.code
-    place = deck.origin.place_in_file(problem)
-    message = cut(problem.message, LONGEST_MESSAGE)
-    if not message.isprintable():  # names of the deck are quoted verbatim
-        message = "".join(char if char.isprintable() else "\ufffd" for char in message)
-    fix = _fix(deck.origin, problem.repair, code) if problem.repair and deck.origin.takes_edits else None
-    blocks = problem.blocking is not Blocks.NEVER
-    return Diagnostic(deck.file, code.code, code.slug, problem.weight, message, *place, fix, blocks)
+def printable(message: str) -> str:
+    """Return a message cut to its greatest length, without what cannot be printed: names of a deck may be anything."""
+    return "".join(char if char.isprintable() else "\ufffd" for char in cut(message, LONGEST_MESSAGE))
 
 
 def _fix(origin: Origin, repair: Repair, code: Code) -> Fix:

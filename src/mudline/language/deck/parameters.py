@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
 
 Value = float | str
-_CONVERT = "convert"
-"""Name of a function whose arguments are not published: a deck that calls it has no fault for that reason."""
 PLACEHOLDER = re.compile(r"%([^%]+)%")
 """Placeholder in a text: the name of a parameter, to be replaced by its value."""
 _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*\]|"[^"]*"|[^\s,]+)""")
@@ -244,7 +242,8 @@ class Parameters:
         except UnknownFunction as error:
             problem = _problem(expression.text, error, where)
             message = f"{problem.message}; the equation is not evaluated"
-            convert = expression.text[error.start : error.end].strip().casefold() == _CONVERT
+            # its arguments are not published: a deck that calls it has no fault for that reason
+            convert = expression.text[error.start : error.end].strip().casefold() == "convert"
             severity = Severity.INFO if convert else Severity.WARNING
             raise NoValueError(Problem(SYN017, message, None, severity, where)) from error
         except ExpressionError as error:
@@ -397,17 +396,12 @@ class _Evaluator:
             elif self.blocks is Blocks.ALWAYS:  # the problem is reported at the parameter's definition
                 self.lacks_parameter = True
             return nothing
-        if isinstance(value, str):
-            if kind is Kind.REAL_OR_NAME:
-                return value
+        if isinstance(value, str) and kind is not Kind.REAL_OR_NAME:
             message = f"{equation} gives the text {value!r}: {label} needs a number"
-            self.problems.append(Problem(SYN002, message, where=where, blocks=self.blocks))
-            return nothing
-        if not whole:
-            return value
-        if value.is_integer():
-            return int(value)
-        message = f"{equation} gives {value!r}: {label} needs a whole number"
+        elif whole and isinstance(value, float) and not value.is_integer():
+            message = f"{equation} gives {value!r}: {label} needs a whole number"
+        else:
+            return int(value) if whole else value
         self.problems.append(Problem(SYN002, message, where=where, blocks=self.blocks))
         return nothing
 

@@ -6,7 +6,6 @@ import re
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
-from typing import TYPE_CHECKING, cast
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
@@ -24,11 +23,6 @@ from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, SyntaxTree, parse
 
-if TYPE_CHECKING:
-    from mudline.language.keywords.library.ocean import Ocean
-    from mudline.language.keywords.library.units import Units
-
-
 _DATA = re.compile(r"[-+.,\d\s]+(?:[eEdD][-+]?\d+[-+.,\d\s]*)*$|\s*[A-Z][A-Z ]*=")
 """Line of numbers, or a setting: not a title."""
 
@@ -40,7 +34,6 @@ _SPACED = re.compile(r"[ \t]*[-+.\d][-+.\deE]*[ \t]+[-+.\d]")
 _NOT_READ = ("lines", "unread")
 """First step of the path to an unread line: of a block without a model, or kept by a model."""
 _ENDS = 2
-_OF_EVERY_BLOCK = {"keyword", "comments"}
 _NUMBERS = re.compile(r"(?=.*[,\d])(?:[,* ]++|[-+.\d][-+.\dED]*+)*+")
 """Rest of a line that begins with asterisks in place of a number: numbers, or asterisks behind a comma."""
 
@@ -246,7 +239,7 @@ class _DeckReader:
         read = self.read_block(self.text, raw, declared, last=last)
         head = trimmed(self.text, *raw.head.span) if last and not raw.leaves else None
         empty = head and not read.problems and head.end == len(self.text)
-        if empty and set(declared.model_fields) - _OF_EVERY_BLOCK:
+        if empty and set(declared.model_fields) - {"keyword", "comments"}:
             message = f"the file ends after *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head, Severity.WARNING))
         self.problems += read.problems
@@ -263,8 +256,8 @@ class _DeckReader:
 
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
         section.blocks.append(Opaque(keyword=raw.name, lines=self.origin.lines_of(where)))
-        head = trimmed(self.text, *raw.head.span)
-        if head.end == len(self.text) and catalogue.begins_keyword(raw.name):
+        head, known = trimmed(self.text, *raw.head.span), catalogue.keywords()
+        if head.end == len(self.text) and raw.name not in known and any(each.startswith(raw.name) for each in known):
             message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head))
             return
@@ -355,7 +348,6 @@ class _DeckReader:
 
 _SUFFIXES = {".keyxm": "metric", ".keyxi": "imperial"}
 GRAVITIES = {"metric": 9.81, "imperial": 32.2}
-_NEAR = 0.02
 
 
 def units_of(deck: Deck) -> str:
@@ -367,10 +359,10 @@ def units_of(deck: Deck) -> str:
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]
     for _, block in deck.blocks("UNITS", "ANALYSIS"):
-        if units := cast("Units", block).units:
-            return units.lower()
+        if block.units:
+            return str(block.units).lower()
     gravity = _of_ocean(deck, "gravity")
-    system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
+    system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= 0.02 * g), "user")
     if system == "metric" and suffix == ".keyx":
         density = _of_ocean(deck, "density")
         return "user" if density is not None and _TONNES[0] <= density <= _TONNES[1] else system
@@ -384,8 +376,5 @@ _TONNES = (0.9, 1.3)
 def _of_ocean(deck: Deck, name: str) -> float | None:
     """Return a value of the last `*OCEAN` that has it, evaluated; None if there is none."""
     parameters = Parameters(deck)
-    last: float | None = None
-    for _, ocean in deck.blocks("OCEAN"):
-        value = parameters.number(getattr(cast("Ocean", ocean), name))
-        last = value if value is not None else last
-    return last
+    values = [parameters.number(getattr(ocean, name)) for _, ocean in deck.blocks("OCEAN")]
+    return next((value for value in reversed(values) if value is not None), None)

@@ -15,7 +15,7 @@ from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.syntax.source import KEY_FILE
 
 _HEAD = 4096
-"""Number of bytes at the beginning of a JSON or YAML file that are searched for its format."""
+"""Number of bytes at the beginning of a file that are searched for its format."""
 
 
 def is_deck(path: str) -> bool:
@@ -23,34 +23,32 @@ def is_deck(path: str) -> bool:
     return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - called for many files
 
 
-def is_document(path: str) -> bool:
-    """Return True if a file is a deck in JSON or YAML, by the format name at its beginning.
+def is_in_any_form(path: str) -> bool:
+    """Return True if a file is a deck by its suffix, or one in JSON or YAML by the format name at its beginning.
 
     A file that cannot be opened counts as a deck; the error is reported when it is read.
     """
-    if is_deck(path) or form_of(path) == "keyword" or not may_be_file(path):
-        return False
-    try:
-        with Path(path).open("rb") as stream:
-            return MARK.encode() in stream.read(_HEAD)
-    except OSError:
+    if is_deck(path):
         return True
-
-
-def is_in_any_form(path: str) -> bool:
-    """Return True if a file is a deck by its suffix or its content."""
-    return is_deck(path) or is_document(path)
+    if form_of(path) == "keyword" or not may_be_file(path):
+        return False
+    head = _head(path)
+    return head is None or MARK.encode() in head
 
 
 def is_key_file(path: str) -> bool:
     """Return True if a `.keyx` file is a key of a password manager, which has the same suffix."""
-    if not path.lower().endswith(".keyx"):
-        return False
+    head = _head(path) if path.lower().endswith(".keyx") else None
+    return bool(head and KEY_FILE.match(head.decode("latin-1").removeprefix("\xef\xbb\xbf")))
+
+
+def _head(path: str) -> bytes | None:
+    """Return the beginning of a file; None if it cannot be opened."""
     try:
         with Path(path).open("rb") as stream:
-            return KEY_FILE.match(stream.read(_HEAD).decode("latin-1").removeprefix("\xef\xbb\xbf")) is not None
+            return stream.read(_HEAD)
     except OSError:
-        return False
+        return None
 
 
 def may_be_deck(path: str) -> bool:

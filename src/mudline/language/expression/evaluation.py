@@ -266,7 +266,9 @@ def _evaluated(node: Node, lookup: Lookup) -> EvaluatedPart:
         case Brackets():
             value = _evaluated(node.inner, lookup).value
         case Prefix():
-            value = _prefixed(node.operator, _evaluated(node.operand, lookup))
+            part = _evaluated(node.operand, lookup)
+            signed = -part.number if node.operator == "-" else part.number
+            value = float(not part.truth) if node.operator == "not" else signed
         case Power():
             value = power(_evaluated(node.base, lookup), _evaluated(node.exponent, lookup))
         case Relation():
@@ -298,12 +300,6 @@ def _parameter(node: Name, lookup: Lookup) -> Value:
     if not -sys.float_info.max <= value <= sys.float_info.max:
         raise EvaluationError(f"the parameter '{shorten(node.name)}' is not a finite number", *node.span)
     return float(value)
-
-
-def _prefixed(operator: str, operand: EvaluatedPart) -> float:
-    if operator == "not":
-        return float(not operand.truth)
-    return -operand.number if operator == "-" else operand.number
 
 
 def _logical(operator: str, operands: Sequence[Node], lookup: Lookup) -> float:

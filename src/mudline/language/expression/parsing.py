@@ -311,17 +311,9 @@ def _unexpected_character(text: str, place: int, accepted: AbstractSet[str]) -> 
 
 def _found(token: Token) -> str:
     """Return a token in plain words."""
-    match token.type:
-        case "NUMBER":
-            return f"the number {shorten(token)}"
-        case "NAME":
-            return f"the name '{shorten(token)}'"
-        case "TEXT":
-            return "text in quotation marks"
-        case "AND" | "OR" | "NOT":
-            return token.upper()
-        case _:
-            return f"'{token}'"
+    named = {"NUMBER": f"the number {shorten(token)}", "NAME": f"the name '{shorten(token)}'"}
+    named |= {"TEXT": "text in quotation marks", **dict.fromkeys(("AND", "OR", "NOT"), token.upper())}
+    return named.get(token.type, f"'{token}'")
 
 
 def _expected(accepted: AbstractSet[str]) -> str:

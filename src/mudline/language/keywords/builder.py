@@ -31,7 +31,7 @@ from mudline.language.keywords.text import (
 from mudline.language.keywords.values import UNKNOWN, Kind, Label, Names, Partly
 from mudline.language.syntax.fields import Field, FieldGroup, read_line, split, trimmed
 from mudline.language.syntax.grammars import ROW, Content, Node
-from mudline.language.syntax.rows import blank_separated, line_spans
+from mudline.language.syntax.rows import blank_separated, line_spans, row_fields
 
 _OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
@@ -120,9 +120,7 @@ class Builder:
 
     def _settings(self, built: ParsedRecord, content: Content) -> None:
         line = read_line(self.text, content.span, slashes=self.slashes)
-        self.unclosed = None
-        if line.problems:
-            self._brackets(line.problems, built)
+        self._brackets(line.problems, built)
         if built.last is not None or issubclass(built.part, Block):
             keys = record_schema(built.part).keys
             order = min((keys[group.key].order for group in line.groups if group.key in keys), default=0)
@@ -134,12 +132,7 @@ class Builder:
         """Read the settings of a line."""
         schema = record_schema(built.part)
         first = schema.keys.get(groups[0].key) if groups else None
-        if (
-            first
-            and first.kind is _OTHER
-            and first.json not in built.values
-            and self._of_other_form(built, first, groups)
-        ):
+        if first and first.kind is _OTHER and self._of_other_form(built, first, groups):
             return
         if first and first.kind is _TITLE and groups[0].fields[0].text:
             self._rest_of_line(built, first, groups)
@@ -165,7 +158,9 @@ class Builder:
     def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[FieldGroup]) -> bool:
         """Read a line whose setting announces an unknown form: all text after its key is one value."""
         fields = groups[0].fields
-        if slot.about.opaque is None or not fields[0].text or (len(groups) == 1 and len(fields) == 1):
+        if slot.about.opaque is None or slot.json in built.values:
+            return False
+        if not fields[0].text or (len(groups) == 1 and len(fields) == 1):
             return False
         value = read_value(fields[0], slot, [])
         if value in slot.choices and value not in slot.about.opaque:
@@ -276,11 +271,9 @@ class Builder:
             behind = [group for group in line.groups if group.key]
         else:
             fields, problems = split(self.text, span, slashes=self.slashes)
-        self.unclosed = None
-        if problems:
-            self._brackets(problems, built)
+        self._brackets(problems, built)
         if len(fields) == 1 and blank_separated(fields[0].text):
-            fields = self._apart(fields[0])
+            fields = row_fields(self.text, fields[0].span, len(fields[0].text))
         return fields, behind
 
     @staticmethod
@@ -361,7 +354,7 @@ class Builder:
         required, kinds = [slot.required for slot in columns], [slot.kind for slot in columns]
         fewest = fewest_fields(required)
         if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
-            fields = self._apart(fields[0])
+            fields = row_fields(self.text, fields[0].span, len(fields[0].text))
         while len(fields) > max(fewest, 1) and not fields[-1].text:
             fields.pop()
         if len(columns) > 1 and (problem := semicolons(self.text, fields)):
@@ -389,15 +382,6 @@ class Builder:
             self.report(SYN003, message, span)
         return fields[: len(columns)]
 
-    def _apart(self, field: Field) -> list[Field]:
-        start = field.span.start
-        fields: list[Field] = []
-        for word in field.text.split():
-            start = self.text.index(word, start)
-            fields.append(Field(word, start))
-            start += len(word)
-        return fields
-
     def _list(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], span: Span | None) -> None:
         """Read fields that are the values of one field."""
         while len(fields) > 1 and not fields[-1].text:
@@ -417,8 +401,7 @@ class Builder:
 
 def _value_of(slot: FieldSpec) -> str:
     """Return a placeholder for the value of a setting: the kind of its name, if any."""
-    names = getattr(slot.about, "names", None)
-    if names is Names.SET:
+    if slot.about.names is Names.SET:
         return ": write the name of a set after it (ALL is every element)"
     return ": write the name of the set after it" if slot.key == "SET" else ""
 

@@ -54,7 +54,6 @@ CERTAIN_SECTIONS = ("PREPROCESSOR", "MODEL", "LOAD CASE")
 
 _ASKED = 1024
 """Size of the caches by name: decks may hold any name."""
-_LIBRARY = "mudline.language.keywords.library"
 
 
 @cache
@@ -107,7 +106,7 @@ def declarations(keyword: str) -> list[type[Block]]:
 @cache
 def load(entry: Entry) -> Any:
     """Return a declaration, a block class or an `OpaqueKeyword`; its module is imported."""
-    return getattr(import_module(f"{_LIBRARY}.{entry.module}"), entry.name)
+    return getattr(import_module(f"mudline.language.keywords.library.{entry.module}"), entry.name)
 
 
 def opaque_keyword(section: str, keyword: str) -> OpaqueKeyword | None:
@@ -231,11 +230,6 @@ def _of_seabed(keyword: str) -> bool:
 def holds_in_soil(keyword: str) -> bool:
     """Return True if a keyword defines soil springs."""
     return facts_of(keyword).soil_springs
-
-
-def begins_keyword(text: str) -> bool:
-    """Return True if a text is not a keyword, but the beginning of one."""
-    return text not in keywords() and any(known.startswith(text) for known in keywords())
 
 
 @cache

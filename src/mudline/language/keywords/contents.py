@@ -43,22 +43,16 @@ class KeptLine(Comment):
     """Line that is passed through; `before` is the index of the item that it precedes, behind the comments there."""
 
 
-def _no_lines() -> list[KeptLine]:
-    """Return an empty list; for the class `list` pydantic would parse the signature in each model with the field."""
-    return []
-
-
 class OpenRecord(Record):
     """Record that can keep lines."""
 
-    unread: list[KeptLine] = Field(default_factory=_no_lines)
+    unread: list[KeptLine] = Field(default_factory=lambda: [])  # noqa: PIE807 - as for `comments` of a record
 
 
-class OpenBlock(Block):
+class OpenBlock(OpenRecord, Block):
     """Block that keeps every line of unknown form; without `open_lines`, only lines that a setting announces."""
 
     open_lines = True
-    unread: list[KeptLine] = Field(default_factory=_no_lines)
 
 
 # ------------------------------------------------------------------------------------------------- what a model keeps

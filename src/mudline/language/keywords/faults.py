@@ -50,6 +50,7 @@ _WANTED = {
     "int_type": "a whole number",
     "int_from_float": "a whole number",
     "string_type": "a text",
+    "string_unicode": "a text without half of a surrogate pair",
     "list_type": "a list",
     "model_type": "an object",
     "model_attributes_type": "an object",

@@ -46,7 +46,7 @@ def _lines(part: type[Part], depth: int) -> list[str]:
 
 def _line(slot: FieldSpec, schema: RecordSchema) -> str:
     """Return the line of one field; "" for a field on the line of another field."""
-    if isinstance(slot.about, Rows) and slot.about.row:
+    if isinstance(slot.about, Rows):
         return _optional(slot, record_schema(slot.about.row).layout) + " ..."
     if slot.key:
         return _optional(slot, _setting(slot))
@@ -68,13 +68,9 @@ def _optional(slot: FieldSpec, text: str) -> str:
 
 def _setting(slot: FieldSpec) -> str:
     kind = [TAKES[slot.kind]] if slot.kind else []
-    taken = [
-        *(slot.choices if slot.kind is Kind.OTHER else kind),
-        *(kind if slot.kind is Kind.OTHER else slot.choices),
-        *([record_schema(slot.row).layout] if slot.row else []),
-    ]
-    value = "|".join(taken)
-    return f"{slot.key}={value}" + (" [, ...]" if slot.many else "")
+    taken = [*slot.choices, *kind] if slot.kind is Kind.OTHER else [*kind, *slot.choices]
+    taken += [record_schema(slot.row).layout] if slot.row else []
+    return f"{slot.key}={'|'.join(taken)}" + (" [, ...]" if slot.many else "")
 
 
 def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
@@ -144,19 +140,10 @@ def field_lines(part: type[Part], depth: int = 0) -> list[str]:
 def usual_text(about: FieldInfo) -> str:
     """Return the usual values of a field, in metric units, with the reason for each range; "" if none are declared."""
     unit = "" if about.unit == "-" else "degrees" if about.unit == "deg" else unit_text(about.unit, "metric")
-    return "; ".join(
-        " ".join(
-            [
-                usual.span(),
-                *(
-                    [f"times {_symbol(usual.of[1:])}" if usual.of.startswith("/") else usual.of]
-                    if usual.of
-                    else [unit] * bool(unit)
-                ),
-                *([f"of {usual.when}"] if usual.when else []),
-                *([f"({usual.why})"] if usual.why else []),
-            ]
-        )
-        for usual in about.usuals
-        if not usual.explained
-    )
+    texts: list[str] = []
+    for usual in about.usuals:
+        if not usual.explained:
+            measure = f"times {_symbol(usual.of[1:])}" if usual.of.startswith("/") else usual.of or unit
+            when, why = f"of {usual.when}" if usual.when else "", f"({usual.why})" if usual.why else ""
+            texts.append(" ".join(filter(None, [usual.span(), measure, when, why])))
+    return "; ".join(texts)

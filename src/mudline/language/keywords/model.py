@@ -60,7 +60,7 @@ class Rows(FieldInfo):
     the slope of the end sections ("slope"), with the last value ("value"), or unknown ("none").
     """
 
-    row: type["Row"] | None = None
+    row: type["Row"] = field(kw_only=True)
     unordered: bool = False
     curve: str = ""
     abscissa: str = ""
@@ -69,13 +69,13 @@ class Rows(FieldInfo):
     @property
     def axes(self) -> tuple[int, int]:
         """Columns of the abscissa and the ordinate of a curve."""
-        names = [spec.json for spec in record_schema(self.row).columns] if self.row else []
+        names = [spec.json for spec in record_schema(self.row).columns]
         over = names.index(self.abscissa)
         return over, next(index for index in range(len(names)) if index != over)
 
     def columns(self) -> list[Column]:
         """Return the columns of the table."""
-        return record_schema(self.row).cells if self.row else []
+        return record_schema(self.row).cells
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_plain_validator_function(
@@ -90,7 +90,7 @@ class Rows(FieldInfo):
             return table
         if self.curve and len(table) < FEWEST_POINTS:
             raise ValueError(f"{counted(len(table), 'point')}: a curve needs at least {FEWEST_POINTS}")
-        for index, spec in enumerate(record_schema(self.row).columns if self.row else ()):
+        for index, spec in enumerate(record_schema(self.row).columns):
             for number, value in enumerate(table.column(index).tolist() if spec.about.limits else ()):
                 if fault := spec.about.fault(value):
                     raise misfit(f"{value!r} is out of range: {fault}", number, index)
@@ -102,16 +102,10 @@ class Rows(FieldInfo):
         return table if info.context == AS_TABLES else table.rows()
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        columns = self.columns()
-        listed = {
-            "type": "array",
-            "prefixItems": [
-                with_limits(cell_schema(column), spec.about.limits)
-                for column, spec in zip(columns, record_schema(self.row).columns if self.row else (), strict=True)
-            ],
-            "items": False,
-            "minItems": fewest_fields(column.required for column in columns),
-        }
+        declared = record_schema(self.row)
+        pairs = zip(declared.cells, declared.columns, strict=True)
+        cells = [with_limits(cell_schema(column), spec.about.limits) for column, spec in pairs]
+        listed = {"type": "array", "prefixItems": cells, "items": False, "minItems": declared.fewest}
         return {
             "description": self.meaning,
             "anyOf": [
@@ -291,9 +285,6 @@ class Block(Record):
     keyword: str
 
 
-_OF_TEXT = (Kind.NAME, Kind.TITLE, Kind.OTHER)
-
-
 @dataclass(slots=True)
 class FieldSpec:
     """Field of a part for reader and writer; `of_list` is True in a `ListRow`."""
@@ -325,7 +316,8 @@ class FieldSpec:
     @property
     def is_text(self) -> bool:
         """True if the values can only be names and words."""
-        return not self.row and (self.kind in _OF_TEXT or (self.kind is None and bool(self.choices)))
+        words = self.kind in (Kind.NAME, Kind.TITLE, Kind.OTHER) or (self.kind is None and bool(self.choices))
+        return words and not self.row
 
     @property
     def columns(self) -> list[Column]:

@@ -304,7 +304,6 @@ def _write(record: ParsedRecord, lines: list[Between]) -> None:
 
 _OF_OTHER_FORMS = frozenset({SYN001, SYN002, SYN003, SYN004, SYN005})
 """Faults that a line of an unknown form may cause."""
-_KEPT = "; the line is passed through unchanged"
 
 
 def of_other_form(
@@ -343,14 +342,10 @@ def _may_be(problem: Problem, text: str, content: Content) -> bool:
 
 def doubtful(problems: Sequence[Problem]) -> list[Problem]:
     """Return the problems of unknown words in kept lines: a warning for a word that may be misspelt, else an info."""
-    return [
-        problem
-        if problem.weight is not Severity.ERROR
-        else replace(
-            problem,
-            message=problem.message + _KEPT,
-            severity=Severity.WARNING if problem.repair else Severity.INFO,
-        )
-        for problem in problems
-        if problem.code is SYN005 or (problem.code is SYN004 and problem.repair)
-    ]
+    words = [each for each in problems if each.code is SYN005 or (each.code is SYN004 and each.repair)]
+    for index, problem in enumerate(words):
+        if problem.weight is Severity.ERROR:
+            severity = Severity.WARNING if problem.repair else Severity.INFO
+            message = f"{problem.message}; the line is passed through unchanged"
+            words[index] = replace(problem, message=message, severity=severity)
+    return words

@@ -205,8 +205,6 @@ class _BlockParser:
                     contents += [Content(ROW, line) for line in line_spans(self.text, span)]
                 case LeafKind.RUN | LeafKind.TEXT:
                     contents.append(Content(ROW, span))
-                case _:
-                    pass
         return contents
 
     def _keep_all(self, odd: Collection[Content], contents: list[Content]) -> None:
@@ -281,10 +279,8 @@ class _BlockParser:
         span = trimmed(self.text, *mismatch.found.span)
         if mismatch.missing:
             expected = self._describe(mismatch.missing)
-            message = f"expected {expected} before this line: write {expected} and its value above it"
-            if mismatch.missing == ROW:
-                message = f"expected {expected} before this line"
-            self.problems.append(Problem(SYN001, message, span))
+            advice = "" if mismatch.missing == ROW else f": write {expected} and its value above it"
+            self.problems.append(Problem(SYN001, f"expected {expected} before this line{advice}", span))
             return
         line = "a row" if mismatch.found.type == ROW else f"{first_key(self.text, mismatch.found.span)}="
         message = f"*{self.raw.name} has no place for {line} here: expected {expected}"
@@ -319,8 +315,8 @@ def all_keys(part: type[Part]) -> frozenset[str]:
 @cache
 def older_keys(part: type[Part]) -> frozenset[str]:
     """Return the KEYs that only decks of the older program have."""
-    fields = (slots.items() for slots in (schema.keys for schema in schemas_of(part)))
-    return frozenset(key for slots in fields for key, slot in slots if slot.about.older is True)
+    fields = (field for schema in schemas_of(part) for field in schema.keys.items())
+    return frozenset(key for key, slot in fields if slot.about.older is True)
 
 
 def schemas_of(part: type[Part]) -> list[RecordSchema]:

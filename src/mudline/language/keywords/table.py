@@ -234,8 +234,6 @@ def _numbers(
         return None
     if not np.isfinite(flat).all():
         return None
-    if len(flat) == len(rows) * width:
-        return Table(flat.reshape(len(rows), width), lengths, columns=columns)
     values = np.full((len(rows), width), math.nan)
     values[np.arange(width) < lengths[:, np.newaxis]] = flat
     return Table(values, lengths, columns=columns)
@@ -274,10 +272,7 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
 
     Empty fields behind the last non-empty one, which trailing commas leave, are dropped.
     """
-    fewest, width = fewest_of(columns), raw.values.shape[1]
-    if not raw.words and fewest <= width <= len(columns) and (raw.lengths == width).all():
-        table = Table(raw.values, raw.lengths, columns=columns)
-        return table, _not_whole(table)
+    fewest = fewest_of(columns)
     faults: dict[tuple[int, int], str] = {}
     words: dict[tuple[int, int], Equation | Label | None] = {}
     lengths = np.minimum(raw.lengths, len(columns))
@@ -370,7 +365,7 @@ def plain(value: Any) -> Any:
         return value.tolist()
     if isinstance(value, list | tuple | Table):
         return [plain(each) for each in value]
-    return value
+    return {name: plain(each) for name, each in value.items()} if isinstance(value, dict) else value
 
 
 def row_format(labels: list[str], required: list[bool]) -> str:

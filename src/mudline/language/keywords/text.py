@@ -296,13 +296,8 @@ def _fault(text: str, label: str, kind: Kind | None) -> str:
         return f"{text!r} is not a number: {TOO_WIDE}, write {label} itself"
     if text.startswith(("[", "=")):
         return f"{text!r} is not an equation: write =[...] for {label}"
-    if lower[:1].isdigit() and any(mark in lower for mark in "ed"):
-        try:
-            float(lower.replace("d", "e"))
-        except ValueError:
-            pass
-        else:
-            return f"{text} is too large for a double-precision number: {label} must be below 1.8E308"
+    if lower[:1].isdigit() and any(mark in lower for mark in "ed") and spells_number(lower):
+        return f"{text} is too large for a double-precision number: {label} must be below 1.8E308"
     if _GROUPED.fullmatch(text):
         whole = "".join(char for char in text if char in "+-.0123456789")
         return f"{text!r} is not a number because its digits are grouped: write {whole} for {label}"

@@ -12,7 +12,7 @@ from pydantic_core import to_json
 from mudline.language.keywords.contents import KeptLine
 from mudline.language.keywords.fields import Comment, Setting
 from mudline.language.keywords.model import Block, FieldSpec, Part, Record, Rows, record_schema
-from mudline.language.keywords.table import Cell, Table
+from mudline.language.keywords.table import Cell
 
 Item = tuple[list[str], int]
 """Lines that comments can precede, and their number of items: one for each table row, else one in total."""
@@ -27,15 +27,10 @@ def block_lines(block: Block) -> Iterator[str]:
 def _record_lines(record: Record) -> Iterator[str]:
     """Yield the opening setting of a record, if its first field is one, then its items."""
     items = list(_items(record))
-    if _opens(record) and items:
+    given = (slot.about for slot in record_schema(type(record)).slots if getattr(record, slot.name) is not None)
+    if items and isinstance(next(given, None), Setting):
         yield from items.pop(0)[0]
     yield from with_comments(record.comments, items, getattr(record, "unread", ()))
-
-
-def _opens(record: Record) -> bool:
-    schema = record_schema(type(record))
-    first = next((slot for slot in schema.slots if getattr(record, slot.name) is not None), None)
-    return first is not None and isinstance(first.about, Setting)
 
 
 def with_comments(comments: list[Comment], items: Iterable[Item], kept: Iterable[KeptLine] = ()) -> Iterator[str]:
@@ -83,19 +78,15 @@ def _items(record: Record) -> Iterator[Item]:
             text = f"{setting.key}={_value(value)}"
             pending = f"{pending}, {text}" if joins else f" {text}"
         elif isinstance(slot.about, Rows):
-            yield from ((lines, len(lines)) for lines in table_lines(value))
+            for piece in value.lines(joined):
+                lines = f" {piece}".replace("\n", "\n ").split("\n")
+                yield lines, len(lines)
         elif slot.record:
             yield from ((list(_record_lines(child)), 1) for child in value)
         else:
             pending = f" {_value(value)}"
     if pending:
         yield [pending], 1
-
-
-def table_lines(table: Table) -> Iterator[list[str]]:
-    """Yield the rows of a table, one per line, in chunks of some thousand."""
-    for piece in table.lines(joined):
-        yield f" {piece}".replace("\n", "\n ").split("\n")
 
 
 def _value(value: Any) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from itertools import accumulate, islice
 from typing import NamedTuple
 
@@ -25,11 +25,6 @@ class TextEdit(NamedTuple):
 class OverlapError(ValueError):
     """Overlap of two edits."""
 
-    def __init__(self, first: TextEdit, second: TextEdit) -> None:
-        self.first = first
-        self.second = second
-        super().__init__(f"edits overlap: {tuple(first.span)} and {tuple(second.span)}")
-
 
 def apply_edits(text: str, edits: Iterable[TextEdit]) -> str:
     """Return the text with all edits applied; the replacement texts are literal.
@@ -45,7 +40,7 @@ def apply_edits(text: str, edits: Iterable[TextEdit]) -> str:
         if not 0 <= start <= end <= len(text):
             raise ValueError(f"an edit of {tuple(edit.span)} does not lie in a text of {len(text)} characters")
         if before is not None and start < at:
-            raise OverlapError(before, edit)
+            raise OverlapError(f"edits overlap: {tuple(before.span)} and {tuple(edit.span)}")
         pieces += (text[at:start], edit.text)
         at, before = end, edit
     pieces.append(text[at:])
@@ -97,12 +92,8 @@ class Undoing:
 
 def with_line_ends(source: Source, edits: Iterable[TextEdit]) -> list[TextEdit]:
     """Return the edits with each LF in their texts replaced by the line end of the nearest line before (CRLF stays)."""
-    return [
-        edit._replace(text=_LONE_LF.sub(line_end_before(source, edit.span.start), edit.text))
-        if "\n" in edit.text
-        else edit
-        for edit in edits
-    ]
+    ends = ((edit, line_end_before(source, edit.span.start)) for edit in edits)
+    return [edit._replace(text=_LONE_LF.sub(end, edit.text)) for edit, end in ends]
 
 
 def line_end_before(source: Source, offset: int) -> str:
@@ -162,7 +153,9 @@ def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
     Columns that are in line only because all fields are of equal length are not aligned.
     """
     span = row.fields[index].span
-    neighbours = [(line.fields[index].span, line.start) for line in _neighbours(source, span, index)]
+    line = source.position(span.start)[0]
+    near_rows = [_row(source, number) for number in (line - 1, line + 1) if 1 <= number <= len(source.line_starts)]
+    neighbours = [(near.fields[index].span, near.start) for near in near_rows if near and index < len(near.fields)]
     if any(span.end - row.start == near.end - start for near, start in neighbours):
         return _wide_blanks_before(source, row, span)
     if index + 1 < len(row.fields) and any(span.start - row.start == near.start - start for near, start in neighbours):
@@ -175,15 +168,6 @@ def _wide_blanks_before(source: Source, row: _Row, span: Span) -> Span | None:
     before = source.text[row.start : span.start]
     length = len(before) - len(before.rstrip(" "))
     return Span(span.start - length, span.start) if length > 1 and "\t" not in before else None
-
-
-def _neighbours(source: Source, span: Span, index: int) -> Iterator[_Row]:
-    """Yield the rows directly above and below that have a field of this index."""
-    line = source.position(span.start)[0]
-    for number in (line - 1, line + 1):
-        row = _row(source, number) if 1 <= number <= len(source.line_starts) else None
-        if row is not None and index < len(row.fields):
-            yield row
 
 
 def _row(source: Source, number: int) -> _Row | None:

@@ -64,8 +64,7 @@ def _compiled(name: str, start: str, makes: Makes | None) -> Lark:
 @cache
 def definitions(name: str) -> Grammar:
     """Return the rules and terminals of a grammar."""
-    grammar, _ = load_grammar(_text(name), f"{name}.lark", [], global_keep_all_tokens=False)
-    return cast("Grammar", grammar)
+    return cast("Grammar", load_grammar(_text(name), f"{name}.lark", [], global_keep_all_tokens=False)[0])
 
 
 def _text(name: str) -> str:

@@ -57,10 +57,7 @@ def read_number(text: str) -> float | None:
     """Return the finite double in a field, or None. Fortran's D exponent is read as E."""
     if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
         return None
-    try:
-        value = float(text)
-    except ValueError:
-        value = float(text.upper().replace("D", "E"))
+    value = float(text.upper().replace("D", "E"))
     return value if math.isfinite(value) else None
 
 

@@ -32,12 +32,10 @@ _CALLED = {
 _LONE_CR = re.compile(r"\r(?!\n)")
 _FOREIGN_DATA = re.compile(r"(?:\A|(?<=[\r\n]))(?!C(?:[^A-Za-z]|\Z))[^\r\n]*[^\x00-\x7f]")
 """Non-ASCII letter in a line that is not a comment."""
-_NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 BINARY = "the file looks like binary data"
 """Beginning of the message that refuses such a file."""
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
-_LINE_FEED = re.compile("\n")
 _FEW = 8
 
 
@@ -97,7 +95,7 @@ class Source:
     def line_starts(self) -> array[int]:
         """Offset of the first character of every line; CR, CRLF and LF each end one."""
         starts = array("q", [0])
-        starts.extend(map(methodcaller("end"), _LINE_FEED.finditer(self.unified)))
+        starts.extend(map(methodcaller("end"), re.finditer("\n", self.unified)))
         return starts
 
     def position(self, offset: int) -> tuple[int, int]:
@@ -149,7 +147,6 @@ def _heads_found(text: str) -> str:
     return "".join((*pieces, text[done:])) if pieces else text
 
 
-_MERGE_MARKS = ("<<<<<<<", ">>>>>>>", "|||||||")
 _MERGE_MARK = re.compile(r"(?:\A|(?<=[\r\n]))(?:<{7}|>{7}|\|{7})(?=[ \r\n]|\Z)")
 KEY_FILE = re.compile(r"\s*<\?xml[^>]*>\s*<KeyFile\b")
 """Beginning of a key file of a password manager, which has a suffix of decks."""
@@ -171,7 +168,7 @@ def _not_a_deck(text: str) -> Problem | None:
     """Return the problem of a text that is not a deck; None if it may be a deck."""
     if match := _NO_DECK.match(text):
         return Problem(SYN018, _INSTEAD[str(match.lastgroup)], Span(*match.span()))
-    marks = any(mark in text for mark in _MERGE_MARKS)  # the pattern is slow in a large file
+    marks = any(mark in text for mark in ("<<<<<<<", ">>>>>>>", "|||||||"))  # the pattern is slow in a large file
     if marks and (match := _MERGE_MARK.search(text)):
         message = "a merge conflict is not solved: keep one of its versions, and remove its marks"
         return Problem(SYN018, message, Span(*match.span()))
@@ -227,17 +224,15 @@ def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
         return body.decode("utf-8"), "utf-8", []
     except UnicodeDecodeError as error:
         start = error.start
-    for encoding, shown in (("cp1252", "CP1252"), ("latin-1", "Latin-1")):
-        try:
-            text = body.decode(encoding)
-        except UnicodeDecodeError:
-            continue
-        message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
-        severity = None if _FOREIGN_DATA.search(text) else Severity.INFO
-        if severity is None:
-            message += ", or give --encoding; a name that is not defined may be one read wrongly"
-        return text, encoding, [Problem(SYN012, message, Span(start, start + 1), severity)]
-    raise AssertionError("Latin-1 decodes every byte")
+    try:
+        text, encoding, shown = body.decode("cp1252"), "cp1252", "CP1252"
+    except UnicodeDecodeError:
+        text, encoding, shown = body.decode("latin-1"), "latin-1", "Latin-1"
+    message = f"byte 0x{body[start]:02X} is not UTF-8; the file is read as {shown}: save it as UTF-8"
+    severity = None if _FOREIGN_DATA.search(text) else Severity.INFO
+    if severity is None:
+        message += ", or give --encoding; a name that is not defined may be one read wrongly"
+    return text, encoding, [Problem(SYN012, message, Span(start, start + 1), severity)]
 
 
 def _control_characters(text: str) -> list[Problem]:

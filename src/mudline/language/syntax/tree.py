@@ -16,7 +16,6 @@ from mudline.language.syntax.grammars import parser
 from mudline.language.syntax.source import CONTROLS, Source
 
 _BLANKS = re.compile(r"[ \t]+")
-_COMMA = re.compile(r" *, *")
 
 
 class LeafKind(Enum):
@@ -117,7 +116,7 @@ def matchable(pattern: str) -> str:
 def canonical_name(line: str) -> str:
     """Return the name on a `$` or `*` line: upper case, single blanks, no blanks around a comma."""
     name = _BLANKS.sub(" ", line.lstrip(f" \t{CONTROLS}").rstrip(" \t\r\n")[1:].strip(" \t"))
-    return _COMMA.sub(",", name).upper()
+    return re.sub(r" *, *", ",", name).upper()
 
 
 def mark_of(line: str) -> str:
@@ -135,20 +134,16 @@ def parse(source: Source) -> SyntaxTree:
     sections: list[RawSection] = []
     leaves = section.leaves
     for line in _lines().finditer(source.unified):
-        kind = _KINDS[line.lastgroup]
+        kind = LeafKind(line.lastgroup)
         leaf = Leaf(kind, Span(*line.span()))
-        if kind is _SECTION:
+        if kind is LeafKind.SECTION:
             section = RawSection(leaf, canonical_name(line[0]))
             sections.append(section)
             leaves = section.leaves
-        elif kind is _KEYWORD:
+        elif kind is LeafKind.KEYWORD:
             block = RawBlock(leaf, canonical_name(line[0]))
             section.blocks.append(block)
             leaves = block.leaves
         else:
             leaves.append(leaf)
     return SyntaxTree(source, preamble, tuple(sections))
-
-
-_KINDS: dict[str | None, LeafKind] = {kind.value: kind for kind in LeafKind}
-_SECTION, _KEYWORD = LeafKind.SECTION, LeafKind.KEYWORD

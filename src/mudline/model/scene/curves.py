@@ -17,7 +17,7 @@ from mudline.language.codes.fields import CRV001, CRV003, CRV011
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Blocks, Problem, Where
 from mudline.language.keywords.fields import Setting
-from mudline.language.keywords.model import Block, FieldSpec, Part, Row, Rows, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, Part, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
@@ -205,7 +205,7 @@ def _written(slot: FieldSpec, value: object) -> str:
 
 def _curve(slot: FieldSpec, table: Table, keyword: str, name: str, places: tuple[Where, Where]) -> SceneCurve:
     about = cast("Rows", slot.about)
-    columns = record_schema(cast("type[Row]", about.row)).columns
+    columns = record_schema(about.row).columns
     axes = about.axes
     over, ordinate = (columns[axis] for axis in axes)
     both = np.column_stack([table.column(axis) for axis in axes])

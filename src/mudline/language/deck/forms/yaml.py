@@ -116,22 +116,14 @@ class _Dumper(CoreDumper):
     """Literal blocks, rows on one line, the shortest numbers that read back."""
 
 
-_Dumper.add_representer(
-    _Literal, lambda dumper, text: dumper.represent_scalar("tag:yaml.org,2002:str", str(text), style="|")
-)
-_Dumper.add_representer(
-    _Flow, lambda dumper, row: dumper.represent_sequence("tag:yaml.org,2002:seq", row, flow_style=True)
-)
-_Dumper.add_representer(
-    float, lambda dumper, value: dumper.represent_scalar("tag:yaml.org,2002:float", _with_point(repr(value)))
-)
+_Dumper.add_representer(_Literal, lambda dumper, text: dumper.represent_scalar(_TAG + "str", str(text), style="|"))
+_Dumper.add_representer(_Flow, lambda dumper, row: dumper.represent_sequence(_TAG + "seq", row, flow_style=True))
+_Dumper.add_representer(float, lambda dumper, value: dumper.represent_scalar(_TAG + "float", _with_point(repr(value))))
 _Dumper.add_representer(
     str,
-    lambda dumper, text: dumper.represent_scalar(
-        "tag:yaml.org,2002:str", text, style='"' if _OTHER_BREAK.search(text) else None
-    ),
+    lambda dumper, text: dumper.represent_scalar(_TAG + "str", text, style='"' if _OTHER_BREAK.search(text) else None),
 )
-_Dumper.add_representer(type(None), lambda dumper, _: dumper.represent_scalar("tag:yaml.org,2002:null", "null"))
+_Dumper.add_representer(type(None), lambda dumper, _: dumper.represent_scalar(_TAG + "null", "null"))
 
 
 def _with_point(number: str) -> str:
@@ -144,20 +136,12 @@ def _node(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _node(item) for key, item in value.items()}
     if isinstance(value, Table):
-        return _table(value)
-    if not isinstance(value, list) or not value:
+        if len(value) > SHORT_TABLE:
+            return _Literal("".join(f"{piece}\n" for piece in value.lines(joined)))
+        return [_Flow(row) for row in value.rows()]
+    if not isinstance(value, list) or not value or isinstance(value[0], str):
         return value
-    if isinstance(value[0], str):
-        return value
-    if isinstance(value[0], dict | list):
-        return [_node(item) for item in value]
-    return _Flow(value)
-
-
-def _table(table: Table) -> Any:
-    if len(table) > SHORT_TABLE:
-        return _Literal("".join(f"{piece}\n" for piece in table.lines(joined)))
-    return [_Flow(row) for row in table.rows()]
+    return [_node(item) for item in value] if isinstance(value[0], dict | list) else _Flow(value)
 
 
 def read(data: bytes, file: str) -> Deck:
