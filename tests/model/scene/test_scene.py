@@ -243,5 +243,5 @@ def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
     assert "scipy" not in found
     assert not {name for name in found if name.startswith("mudline.model.contact.seabed.")}
     laws = {name.rpartition(".")[2] for name in found if name.startswith("mudline.model.contact.laws.")}
-    assert laws == {"curve"}
+    assert laws == {"linear"}
     assert "mudline.model.scene.contact_input" in found

@@ -28,6 +28,7 @@ from mudline.language.keywords.usual import (
     WAVE_PERIOD,
     YOUNG,
     Usual,
+    exceeded,
 )
 from mudline.language.keywords.values import Names
 from mudline.model.scene.boundary import held_freedoms
@@ -107,7 +108,7 @@ class Numbers:
         if value == 0.0:  # is usual by itself and as a ratio
             asked = [each for each in asked if each.of[:1] not in ("", "/")]
         in_si = value * self.units.size(slot.about.unit)
-        for usual in [each for each in asked if not each.holds(self.quantity(slot, each, in_si))]:
+        for usual in exceeded(asked, [self.quantity(slot, each, in_si) for each in asked]):
             placeholder = usual.placeholder and is_placeholder(value)
             explained = not (placeholder or usual.explained) or self.explanation(slot, usual, value, strict=placeholder)
             if explained and (not usual.when or CONDITIONS[usual.when](self)):

@@ -25,7 +25,7 @@ from mudline.language.diagnostics import (
     Severity,
     Where,
 )
-from mudline.language.keywords.contents import Role, every_name_given, kept_places
+from mudline.language.keywords.contents import Role, every_name_given, gives_names, kept_places
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import Block, Part, record_schema
 from mudline.language.keywords.values import Names, Text
@@ -288,6 +288,7 @@ class Deck:
         return [
             NamedPlace(kind, role, name, where._replace(path=path))
             for where, _, block in self.every_block()
+            if gives_names(type(block))
             for kind, role, name, path in every_name_given(block)
         ]
 

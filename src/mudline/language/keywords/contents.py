@@ -32,7 +32,7 @@ from mudline.language.keywords.model import (
     record_schema,
 )
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.values import UNKNOWN_NAME, Equation, Kind, Label, Names, Partly, is_unknown
+from mudline.language.keywords.values import UNKNOWN, UNKNOWN_NAME, Equation, Kind, Label, Names, Partly
 from mudline.language.syntax.fields import canonical_key
 from mudline.language.syntax.grammars import first_terminals, terminal_of
 
@@ -93,8 +93,10 @@ def is_read(part: Part) -> bool:
 
 def is_partly_unknown(value: object) -> bool:
     """Return True if a value, an item of a list, or a field of a table or part could not be read."""
-    if is_unknown(value) or type(value) is Partly or (isinstance(value, Table) and value.unknown):
+    if value is UNKNOWN or value is UNKNOWN_NAME or type(value) is Partly:
         return True
+    if isinstance(value, Table):
+        return bool(value.unknown)
     return isinstance(value, BaseModel) and any(map(is_partly_unknown, value.__dict__.values()))
 
 
@@ -188,6 +190,12 @@ def naming(what: Names | None, role: Role = "names") -> FieldFilter:
 def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
     """Return the kinds of objects that the fields of a part and its inner parts refer to or define."""
     return frozenset(kind for slot in fields_of(part) if (kind := getattr(slot.about, role)) is not None)
+
+
+@cache
+def gives_names(part: type[Part]) -> bool:
+    """Return True if a part, or an inner part, has fields for names."""
+    return any(map(_holds_name, fields_of(part)))
 
 
 def every_name_given(part: Part) -> list[tuple[Names, Role, str, Path]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -50,6 +51,11 @@ class Usual:
         if math.isinf(self.low):
             return f"at most {high}"
         return f"at least {low}" if math.isinf(self.high) else f"{low} to {high}"
+
+
+def exceeded(usuals: Sequence[Usual], quantities: Sequence[float]) -> list[Usual]:
+    """Return the ranges that do not hold the quantity compared with each."""
+    return [usual for usual, quantity in zip(usuals, quantities, strict=True) if not usual.holds(quantity)]
 
 
 COUNT = "a count"

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Annotated, Any, ClassVar, Final, Literal, NamedTuple, Self, get_args
 
-from pydantic import BeforeValidator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
 _NO_LINE_END = {"not": {"pattern": "[\\r\\n]"}}
@@ -78,8 +78,17 @@ class Kind(Enum):
 
 
 def _whole(value: object) -> object:
-    """Return an integral float as an int, since 1.0 is a whole number in JSON; other values unchanged."""
-    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) <= 2**53 else value
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+class _FromFloat:
+    """Schema of a whole number that also takes an integral float, as 1.0 is a whole number in JSON."""
+
+    @staticmethod
+    def __get_pydantic_core_schema__(source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        whole = handler(source)
+        from_float = core_schema.no_info_before_validator_function(_whole, whole)
+        return core_schema.union_schema([whole, from_float], mode="left_to_right")
 
 
 class _Either:
@@ -101,8 +110,8 @@ class _Either:
 
 
 Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Integer = Annotated[int, Field(strict=True, ge=-(2**53), le=2**53), BeforeValidator(_whole)]
-Count = Annotated[int, Field(strict=True, ge=0, le=2**53), BeforeValidator(_whole)]
+Integer = Annotated[int, Field(strict=True, ge=-(2**53), le=2**53), _FromFloat()]
+Count = Annotated[int, Field(strict=True, ge=0, le=2**53), _FromFloat()]
 Text = Annotated[str, Field(strict=True, pattern=r"^[^\r\n]*$", json_schema_extra=_NO_LINE_END)]
 
 Real = Annotated[float | Equation, _Either(Finite | Equation), Kind.REAL]

@@ -99,7 +99,8 @@ class Context:
     __repr__ = short_repr
 
     def __post_init__(self) -> None:
-        self.unread |= {block.keyword for where, _, block in self.deck.every_block() if self.deck.lost(where)}
+        if self.deck.problems or self.deck.bases:
+            self.unread |= {block.keyword for where, _, block in self.deck.every_block() if self.deck.lost(where)}
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """Return the same as `Deck.blocks` for the evaluated deck, computed once for all callers."""

@@ -177,6 +177,8 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
     known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & ~(scene.length > 0.0))
     first, second = scene.element_nodes[known].T
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
+    if not same.size:
+        return
     joints = [keyword for keyword in scene.deck.keywords() if may_have_no_length(keyword)]
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
     reported: set[Where] = set()
