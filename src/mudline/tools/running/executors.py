@@ -50,6 +50,9 @@ _COUNTED = 5.0
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for on Windows."""
 
+_SAFE_PATH = "PYTHONSAFEPATH"
+"""Variable by which Python processes that this one starts import no modules of the working folder."""
+
 _ADDRESS = r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})"
 """Strict pattern of addresses: a form that Dask parses differently would escape the check."""
 
@@ -241,7 +244,8 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
     if method == "forkserver":
         context.set_forkserver_preload([module])
     executor = ProcessPoolExecutor(count, context, _begin, (outputs(),))
-    os.environ["PYTHONSAFEPATH"] = "1"  # these processes import no modules of the working folder
+    safe = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
     try:
         yield executor
     except BaseException:
@@ -250,6 +254,10 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
         raise
     finally:
         executor.shutdown(cancel_futures=True)
+        if safe is None:
+            del os.environ[_SAFE_PATH]
+        else:
+            os.environ[_SAFE_PATH] = safe
 
 
 def _begin(known: ClaimedOutputs) -> None:
