@@ -175,6 +175,15 @@ def test_contents_that_are_not_read_are_not_zero(place: Place) -> None:
     assert "unknown" in text
 
 
+def test_a_pipe_without_a_wall_has_no_stiffness_and_weight(place: Place) -> None:
+    deck = place(CLEAN.replace("0.5, 0.46, 7850.0", "0.46, 0.5, 7850.0"))
+    outcome = run("show", deck, "--sheet", "--output-format", "json")
+    (row,) = outcome.json()["sheet"]
+    assert (row["outer_diameter"], row["inner_diameter"], outcome.code) == (0.46, 0.5, 1)
+    of_the_wall = ("diameter_over_wall", "mass", "empty_weight", "filled_mass", "filled_weight", "bending", "axial")
+    assert {row[key] for key in of_the_wall} == {None}
+
+
 def test_diameters_of_drag_and_buoyancy_where_they_differ(place: Place) -> None:
     rigid = "207.0E9, 79.6E9, 0.5, 0.46, 7850.0"
     assert rigid in CLEAN

@@ -158,6 +158,9 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[DisplayColumn
             ]
             values_by_column[density] = case_contents.density
             values_by_column[weight] = scene.submerged_weight + case_contents.mass * scene.surroundings.gravity
+    no_wall = inner >= outer  # refused: what follows from the wall is no value
+    for key in ("diameter_over_wall", "bending", "axial", *(key for key in values_by_column if "weight" in key)):
+        values_by_column[key] = np.where(no_wall, np.nan, values_by_column[key])
     return values_by_column, others
 
 
