@@ -372,7 +372,8 @@ class BaseProblem(Problem):
 
 def printable(message: str) -> str:
     """Return a message cut to its greatest length, without what cannot be printed: names of a deck may be anything."""
-    return "".join(char if char.isprintable() else "\ufffd" for char in cut(message, LONGEST_MESSAGE))
+    text = cut(message, LONGEST_MESSAGE)
+    return text if text.isprintable() else "".join(char if char.isprintable() else "\ufffd" for char in text)
 
 
 def _fix(origin: Origin, repair: Repair, code: Code) -> Fix:
