@@ -37,7 +37,7 @@ from mudline.model.contact.laws.suction import (
     SuctionLaw,
     breakout_uplift,
     from_cohesion,
-    suction_rates,
+    release_stiffness,
 )
 from tests.benchmarks.studies.laws import DIAMETER
 from tests.benchmarks.studies.newton import Newton
@@ -114,6 +114,6 @@ def run(progress: Callable[[str], None]) -> None:
     law = SuctionLaw(*factors, *(np.array([value]) for value in (0.2, 0.8, 1.0, 1e-3, math.nan)))
     found = []
     for velocity in VELOCITIES:
-        needed = suction_rates(law, np.array([velocity]))[1].item()
+        needed = float(release_stiffness(law, np.array([velocity]))[0])
         found.append([velocity, needed, *(equilibria(law, velocity, share * needed) for share in SHARES)])
     save(RELEASE, ["velocity [m/s]", "needed [N/m2]", *(f"at {share:g} of it" for share in SHARES)], found)

@@ -9,7 +9,7 @@ import pytest
 
 from mudline.model.contact import ContactInput, ContactModel
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.lines import directions_of
+from mudline.model.contact.directions import directions_of
 from mudline.model.contact.seabed import PlanesSeabed
 from tests.helpers.builders.contact import LINEAR, at_depths, chain, drawn, friction, on, trench, walk
 
@@ -31,7 +31,7 @@ def drifted(points: FloatArray, y: float, z: float) -> FloatArray:
 def axes(contact: ContactModel, points: FloatArray) -> FloatArray:
     """Directions u1 of the nodes."""
     result, _ = contact.step(points, None, contact.initial_state())
-    return directions_of(contact._tables.line, None, points, result.normal).axes[0]
+    return directions_of(contact._tables, points, result.normal).axes[0]
 
 
 @pytest.mark.parametrize("elements", [[[0, 1], [2, 1]], [[1, 0], [1, 2]], [[1, 0], [2, 1]], [[2, 1], [0, 1]]])

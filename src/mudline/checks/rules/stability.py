@@ -48,7 +48,7 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
 
     Finds: 18:2
     """
-    from mudline.model.contact.laws.suction import suction_rates  # noqa: PLC0415 - most decks do without
+    from mudline.model.contact.laws.suction import release_stiffness  # noqa: PLC0415 - most decks do without
     from mudline.model.scene.assignments import suction_law  # noqa: PLC0415 - most decks do without
 
     for _, where, held in extension.blocks():
@@ -56,7 +56,7 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
         law = suction_law(scene, extension, elements)
         with np.errstate(all="ignore"):
             usable = (law.second_corner >= 0.01) & (law.second_corner <= 0.99) & (law.regularisation > 0.0)
-            needed = np.where(usable, suction_rates(law, law.regularisation)[1], np.nan)
+            needed = np.where(usable, release_stiffness(law, law.regularisation), np.nan)
         known = np.flatnonzero(np.isfinite(needed) & (needed > 0.0))
         if known.size:
             worst = int(known[np.argmax(needed[known])])

@@ -113,7 +113,8 @@ def html(result: ContactResult) -> str:
             line.line,
             ", ".join(f"{point.arc_length:.6g}" for point in line.touchdown),
             line.contact_length,
-            *((None, None) if line.largest_force is None else (line.largest_force.force, line.largest_force.element)),
+            None if line.largest_force is None else line.largest_force.force,
+            None if line.largest_force is None else line.largest_force.element,
             line.reaction,
             line.submerged_weight,
         )

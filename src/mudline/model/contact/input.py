@@ -336,53 +336,56 @@ class ContactInput:
         rows = np.concatenate([_rows(part, count) for part in parts])
         order = np.argsort(rows, kind="stable")
         rows = rows[order]
-        self._refuse_first(law.acts_on, rows[1:], rows[1:] == rows[:-1], f"has two {name} laws")
+        self._refuse_first(law, rows[1:], rows[1:] == rows[:-1], f"has two {name} laws")
         columns = [_columns(law, part) for part in parts]
         values = {each.name: np.concatenate([part[each.name] for part in columns])[order] for each in law.parameters}
         for each in law.parameters:
             wrong = each.invalid(values[each.name])
             value = float(values[each.name][np.argmax(wrong)]) if wrong.any() else 0.0
             what = f"has a {name} law whose {each.name.replace('_', ' ')} is {value!r}; expected {each.valid_range}"
-            self._refuse_first(law.acts_on, rows, wrong, what)
+            self._refuse_first(law, rows, wrong, what)
         if law.check is not None:
             bad, what = law.check(values)
-            self._refuse_first(law.acts_on, rows, bad, f"has a {name} law: {what}")
+            self._refuse_first(law, rows, bad, f"has a {name} law: {what}")
         if law.tables:
             index, size = ("curve", len(self.curves)) if isinstance(law, NormalLaw) else ("table", len(self.tables))
             missing = (values[index] >= size) | (values[index] % 1.0 != 0.0)
-            self._refuse_first(law.acts_on, rows, missing, f"has a {index} that does not exist")
+            self._refuse_first(law, rows, missing, f"has a {index} that does not exist")
         if law.needs_diameter:
-            self._refuse_first(law.acts_on, rows, np.isnan(self.diameter[rows]), f"has a {name} law and no diameter")
+            self._refuse_first(law, rows, np.isnan(self.diameter[rows]), f"has a {name} law and no diameter")
         return AssignedLaw(law, rows, values)
 
     def _check_elements(self, nodes: int) -> None:
         first, second = ((ends >= 0) & (ends < nodes) for ends in self.element_nodes.T)
-        usable = (np.isfinite(self.diameter) & (self.diameter > 0.0)) | np.isnan(self.diameter)
-        for holds, otherwise in (
-            (first & second, "has a node that does not exist"),
-            (np.isfinite(self.length) & (self.length >= 0.0), "has no usable length"),
-            (usable, "has a diameter that is not positive and finite"),
-        ):
-            self._refuse_first("elements", np.arange(len(holds)), ~holds, otherwise)
+        self._require(first & second, "has a node that does not exist")
+        self._require(np.isfinite(self.length) & (self.length >= 0.0), "has no usable length")
+        usable = np.isfinite(self.diameter) & (self.diameter > 0.0)
+        self._require(usable | np.isnan(self.diameter), "has a diameter that is not positive and finite")
 
     def _check_normal(self) -> None:
         for laws in (self._restrained, self.nodal_laws):
             if len(laws) > 1:
                 rows = np.sort(np.concatenate([assigned.rows for assigned in laws]))
-                self._refuse_first(laws[0].law.acts_on, rows[1:], rows[1:] == rows[:-1], "has two normal laws")
+                self._refuse_first(laws[0].law, rows[1:], rows[1:] == rows[:-1], "has two normal laws")
 
         for assigned in self.normal_laws:
             for name in ("unloading", "suction") if isinstance(assigned.law, PathLaw) else ():
                 also = self.assigned[name].rows if name in self.assigned else np.zeros(0, np.intp)
                 what = f"has a {assigned.law.name} law, which has its own {name}, and an additional {name} law"
-                self._refuse_first(assigned.law.acts_on, assigned.rows, np.isin(assigned.rows, also), what)
+                self._refuse_first(assigned.law, assigned.rows, np.isin(assigned.rows, also), what)
 
-    def _refuse_first(self, acts_on: str, rows: IndexArray, wrong: BoolArray, what: str) -> None:
-        """Raise ElementError or ValueError for the first wrong row of elements or nodes, if any."""
+    def _require(self, holds: BoolArray, otherwise: str) -> None:
+        broken = np.flatnonzero(~holds)
+        if broken.size:
+            element = int(self.element_ids[broken[0]])
+            raise ElementError(f"element {element} {otherwise}", element)
+
+    def _refuse_first(self, law: Law, rows: IndexArray, wrong: BoolArray, what: str) -> None:
+        """Raise ElementError or ValueError for the first wrong row of a law, if any."""
         if not wrong.any():
             return
         row = rows[np.argmax(wrong)]
-        if acts_on == "nodes":
+        if law.acts_on == "nodes":
             raise ValueError(f"node {self.node_ids[row]} {what}")
         element = int(self.element_ids[row])
         raise ElementError(f"element {element} {what}", element)

@@ -1,138 +1,15 @@
-"""Lines formed by elements: elements at each node, directions along the line, arc length, summary of a line.
-
-A line runs between two ends, free or at a junction.
-"""
+"""Lines formed by elements, with arc length between their ends, free or at a junction; summary of a line."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from mudline.basics.quantities import as_json
 from mudline.basics.short_repr import short_repr
-from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray
-from mudline.model.contact.vectors import in_plane, turned, units
-
-if TYPE_CHECKING:
-    from mudline.model.contact.laws.friction import FrictionLaw
-
-
-class Incidence:
-    """The elements (m, 2) among nodes (n).
-
-    Along most lines an element runs from one node to the next, so that slices of arrays replace indices.
-
-    Attributes:
-        ends: (m, 2) the nodes of the elements.
-        first, second: (m,) the nodes at each end.
-        start, elements: the elements at node i are elements[start[i]:start[i + 1]]: in order those that begin there,
-            then those that end there.
-        sides: (2 m,) the end, 0 or 1, of each entry of `elements` at its node.
-        senses: (2 m,) sign of the direction of each entry at its node. It is -1 for the later one of two elements that
-            both begin or both end at a node: the line runs through whichever way its elements are written.
-        turns: whether a sense is negative.
-    """
-
-    def __init__(self, element_nodes: IndexArray, nodes: int) -> None:
-        self.ends: IndexArray = np.ascontiguousarray(element_nodes, np.intp)
-        self.first, self.second = np.ascontiguousarray(self.ends.T)
-        count = len(element_nodes)
-        order = np.argsort(np.concatenate([self.first, self.second]), kind="stable")
-        degree = np.bincount(self.first, minlength=nodes) + np.bincount(self.second, minlength=nodes)
-        self.start: IndexArray = np.append(0, np.cumsum(degree)).astype(np.intp)
-        self.elements: SmallIndexArray = (order % max(count, 1)).astype(np.int32)
-        begins = order < count
-        self.sides: IndexArray = np.where(begins, 0, 1)
-        two = np.flatnonzero(degree == 2)
-        same = two[begins[self.start[two]] == begins[self.start[two] + 1]]
-        self.senses: FloatArray = np.ones(2 * count)
-        self.senses[self.start[same] + 1] = -1.0
-        self.turns = bool(same.size)
-        self._junctions = np.flatnonzero(degree > 2)
-        along = np.arange(nodes)
-        self._chain = np.array_equal(self.first, along[:-1]) and np.array_equal(self.second, along[1:])
-
-    @cached_property
-    def beside(self) -> IndexArray:
-        """The first two elements (n, 2) at each node, -1 for a missing element."""
-        padded, degree = np.append(self.elements, [-1, -1]), np.diff(self.start)
-        pair = np.stack([padded[self.start[:-1]], padded[self.start[:-1] + 1]], axis=1).astype(np.intp)
-        pair[degree < 2, 1] = pair[degree < 1, 0] = -1
-        return pair
-
-    @cached_property
-    def _first_two(self) -> list[tuple[IndexArray, FloatArray]]:
-        """The first, and the second element (n,) at each node and its sense; without one the column of zeros."""
-        senses, start = np.append(self.senses, [1.0] * 2), self.start[:-1]
-        pair = 1 + np.where(self.beside < 0, len(self.first), self.beside)
-        return [(pair[:, side], senses[start + side]) for side in range(2)]
-
-    def at(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return values (steps, m) at both ends of the elements, from values (steps, n) at nodes."""
-        if self._chain:
-            return values[:, :-1], values[:, 1:]
-        return values.take(self.first, axis=1), values.take(self.second, axis=1)
-
-    def sums(self, values: FloatArray, *, directed: bool = False) -> FloatArray:
-        """Return sums (steps, n) at nodes of the values (steps, m + 2) of their elements.
-
-        The values stand between two columns of zeros, and are added in the order of `elements`. With `directed` each
-        value is multiplied by its sense.
-        """
-        if self._chain:
-            total: FloatArray = values[:, 1:] + values[:, :-1]
-            total += 0.0
-            return total
-        total = np.zeros((len(values), len(self.start) - 1))
-        for elements, senses in self._first_two:
-            total += values.take(elements, axis=1) * senses if directed else values.take(elements, axis=1)
-        for node in self._junctions.tolist():  # of three or more elements
-            sums = np.zeros(len(total))
-            for element in self.elements[self.start[node] : self.start[node + 1]].tolist():
-                sums += values[:, 1 + element]
-            total[:, node] = sums
-        return total
-
-
-class Directions(NamedTuple):
-    """Directions at nodes (n,) in one step.
-
-    Attributes:
-        axes: u1 and u2, each (n, 3).
-        follows: (n,) nodes whose directions turn with the line.
-        senses: (m, 2) sign of each element's direction at its two ends.
-        size: (n,) length of the projection of the sum of the elements' directions.
-    """
-
-    axes: tuple[FloatArray, FloatArray]
-    follows: BoolArray
-    senses: FloatArray
-    size: FloatArray
-
-
-def directions_of(line: Incidence, friction: FrictionLaw | None, points: FloatArray, normals: FloatArray) -> Directions:
-    """Return the directions of nodes at `points` (n, 3) with unit normals (n, 3)."""
-    with np.errstate(all="ignore"):
-        unit = units((points[line.second] - points[line.first]).T)
-        total = np.ascontiguousarray(line.sums(np.pad(unit, ((0, 0), (1, 1))), directed=True).T)
-        flat = total - (total * normals).sum(axis=1)[:, None] * normals
-        along = along_seabed(total, normals)
-        follows = np.ones(len(points), np.bool_)
-        if friction is not None and friction.turned.size:
-            there = tuple(normals[friction.turned].T)
-            along[friction.turned] = np.stack(turned(friction.cosine, friction.sine, there), axis=1)
-            follows[friction.turned] = False
-        senses = np.ones((len(line.first), 2))
-        senses[line.elements, line.sides] = line.senses
-    return Directions((along, np.cross(normals, along)), follows, senses, np.sqrt((flat * flat).sum(axis=1)))
-
-
-def along_seabed(vectors: FloatArray, normal: FloatArray) -> FloatArray:
-    """Return unit vectors (k, 3) along projections of vectors; the default direction for a vector along the normal."""
-    return np.stack(in_plane(tuple(vectors.T), tuple(normal.T)), axis=1)
+from mudline.model.contact.arrays import FloatArray, IndexArray
 
 
 class Lines(NamedTuple):
@@ -172,7 +49,7 @@ def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines
     """Return the lines that elements (m, 2) with lengths (m,) form among `nodes` nodes."""
     ends = np.ascontiguousarray(element_nodes, np.intp)
     elements = len(ends)
-    parts = _followed(ends, nodes)
+    parts = _in_order(ends, nodes) or _followed(ends, nodes)
     of_element, of_node = np.zeros(elements, np.intp), np.full(nodes, -1, np.intp)
     element_arc, node_arc = np.zeros(elements), np.full(nodes, np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -185,6 +62,26 @@ def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines
             if closed:
                 node_arc[through[0]] = 0.0
     return Lines(of_element, of_node, element_arc, node_arc, [each for each, _ in parts], [each for _, each in parts])
+
+
+def _in_order(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]] | None:
+    """Return elements and nodes of each line if the elements of each are consecutive in the deck; else None."""
+    if not len(ends):
+        return []
+    first, second = ends.T
+    degree = np.bincount(ends.ravel(), minlength=nodes)
+    goes_on = (second[:-1] == first[1:]) & (degree[first[1:]] == 2)
+    starts = np.append(0, np.flatnonzero(~goes_on) + 1)
+    stops = np.append(starts[1:], len(ends))
+    closed = first[starts] == second[stops - 1]
+    ended = (degree[first[starts]] != 2) & (degree[second[stops - 1]] != 2)
+    if not (closed | ended).all():
+        return None
+    along = np.arange(len(ends))
+    return [
+        (along[start:stop], np.append(first[start:stop], second[stop - 1]))
+        for start, stop in zip(starts.tolist(), stops.tolist(), strict=True)
+    ]
 
 
 def _followed(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]]:

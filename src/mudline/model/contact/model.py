@@ -97,17 +97,15 @@ class ContactModel:
     def __setstate__(self, state: dict[str, object]) -> None:
         vars(self).update(state, _made=WeakKeyDictionary(), _own=WeakSet())
 
-    @property
-    def _size(self) -> str:
-        return f"{counted(self._nodes, 'node')}, {counted(len(self.input.element_ids), 'element')}"
-
     def __repr__(self) -> str:
+        size = f"{counted(self._nodes, 'node')}, {counted(len(self.input.element_ids), 'element')}"
         stages = ", ".join(stage.stage for stage in self.plan if stage.active)
-        return outline("ContactModel", self._size, stages, self.plan.steps)
+        return outline("ContactModel", size, stages, self.plan.steps)
 
     def _repr_html_(self) -> str:
         """Return size and plan as HTML, for notebooks."""
-        return self.plan.html("ContactModel", self._size)
+        nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
+        return self.plan.html("ContactModel", f"{counted(nodes, 'node')}, {counted(elements, 'element')}")
 
     def evaluate(
         self,
@@ -328,8 +326,9 @@ class ContactModel:
         complete = part.present is self._everywhere or bool(part.present.all())
         batch = StepBatch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid, complete)
         if self._tables.level is not None:
-            for place, normals, height in zip(points, part.normal, part.gap, strict=True):
-                np.add(height, self._tables.lowered(place, laid, normals)[0], out=height)
+            from mudline.model.contact.directions import lower  # noqa: PLC0415 - few trenches do
+
+            lower(self._tables, points, laid, part.normal, part.gap)
         after = state.following(spare, points[-1], laid) if self.plan.history else state
         if driver is None or not driver.run(batch, part, state, after):
             after.remember(state)

@@ -7,6 +7,8 @@ are not finite.
 
 from __future__ import annotations
 
+import ctypes
+import sys
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -16,7 +18,7 @@ from mudline.model.contact.arrays import BoolArray, FloatArray, Picked, as_range
 from mudline.model.contact.laws import law_module
 from mudline.model.contact.numpy_elements import ElementLaws, Work
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.seabed import Seabed
+from mudline.model.contact.seabed import FlatSeabed, Seabed
 from mudline.model.contact.tables import ContactState, LawTables, StepBatch
 from mudline.model.contact.vectors import Components, in_plane
 
@@ -27,17 +29,22 @@ if TYPE_CHECKING:
 
 BLOCK = 32768
 """Elements or nodes, times steps, of a batch: work arrays of short lines stay in the second-level cache."""
+_KEPT = {-3: 2**25, -1: 2**29}
+"""Options of `mallopt`: largest kept array (M_MMAP_THRESHOLD), kept memory of the heap (M_TRIM_THRESHOLD)."""
 
 
 class NumpyDriver:
     """Evaluator of batches of steps. Holds no state of a series; may be shared by threads."""
 
     def __init__(self, tables: LawTables, seabed: Seabed) -> None:
+        _keep_freed_memory()
         self._tables, self._seabed = tables, seabed
         self.steps = max(1, BLOCK // max(len(tables.half), len(tables.given.node_ids), 1))
         """Number of steps at a time that is fastest."""
-        self._slides = tables.friction is not None or tables.lateral is not None
-        self._elements, self._nodes = ElementLaws(tables), NodeLaws(tables)
+        flat = isinstance(seabed, FlatSeabed)
+        slides = tables.friction is not None or tables.lateral is not None
+        self._components = (2 if flat else 3) if slides else 0
+        self._elements, self._nodes = ElementLaws(tables), NodeLaws(tables, flat=flat)
 
     def locate(self, points: FloatArray, part: ContactResult) -> None:
         """Write gaps and normals of `part` (steps, n)."""
@@ -49,19 +56,29 @@ class NumpyDriver:
     def run(self, batch: StepBatch, part: ContactResult, state: ContactState) -> None:
         """Write a batch to `part` except gaps and normals, which are there already; `state` is updated in place."""
         steps, elements = len(batch.points), len(self._tables.half)
-        lateral = 3 if self._tables.lateral is not None else 0
-        normals = part.normal[:1, :1] if part.normal.strides[1] == 0 else part.normal  # shared by all nodes, or not
+        lateral = self._components if self._tables.lateral is not None else 0
         work = Work(
-            np.ascontiguousarray(batch.points.transpose(2, 0, 1)) if self._slides else np.empty((0, 0, 0)),
-            tuple(np.ascontiguousarray(normals[..., axis]) for axis in range(3)),
+            np.ascontiguousarray(batch.points.transpose(2, 0, 1)) if self._components else np.empty((0, 0, 0)),
             np.zeros((steps, elements + 2)),
-            np.zeros((3 if self._slides else 0, steps, elements + 2)),
+            np.zeros((self._components, steps, elements + 2)),
             np.zeros((lateral, steps, elements + 2)),
             np.zeros((steps, elements + 2)) if self._tables.embeds else np.empty((0, 0)),
         )
         self._elements.run(batch, part, state, work)
         laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
         self._nodes.run(batch.speed, part, state, work, laid)
+
+
+def _keep_freed_memory() -> None:
+    """Let the GNU C library keep the arrays of a batch for the next batch.
+
+    By default it returns large arrays to the system as soon as they are freed. Touching new memory costs more than the
+    computations in it: a fifth of the time of a million nodes.
+    """
+    set_option = getattr(ctypes.CDLL(None), "mallopt", None) if sys.platform == "linux" else None
+    if set_option is not None:
+        for option, size in _KEPT.items():
+            set_option(option, size)
 
 
 class _Breakout(NamedTuple):
@@ -83,9 +100,9 @@ class _Breakout(NamedTuple):
         """Scale the lateral springs and limits (k,) of a step to points (3, k)."""
         from mudline.model.contact.laws.breakout import reached, shares  # noqa: PLC0415 - most friction has no breakout
 
-        at, law, held = self.at, self.law, self.held
-        away = tuple(points[:, at] - held[:3])
-        distance = vectors.dot(tuple(axis[at] for axis in across), away)
+        at, law, held, axes = self.at, self.law, self.held, len(across)
+        away = tuple(points[3 - axes :, at] - held[3 - axes : 3])
+        distance = vectors.PLANES[axes].dot(tuple(axis[at] if len(axis) > 1 else axis for axis in across), away)
         held[3], held[4] = reached((held[3], held[4]), distance, self.embedment[step], law)
         share, _, softer = shares(held[3], held[4], law)
         for values, factor in zip(scaled, (softer, share), strict=True):
@@ -105,8 +122,9 @@ class _Breakout(NamedTuple):
 class NodeLaws:
     """The laws of all nodes, over the steps of a batch."""
 
-    def __init__(self, tables: LawTables) -> None:
-        self._tables = tables
+    def __init__(self, tables: LawTables, *, flat: bool) -> None:
+        self._tables, self._flat = tables, flat
+        self._plane = vectors.PLANES[2 if flat else 3]
         self._nodal = [(rows, as_range(rows.rows), rows.law.onset(*rows.columns)) for rows in tables.nodal]
         friction = tables.friction
         if friction is not None:
@@ -134,27 +152,37 @@ class NodeLaws:
         if tables.nodal_damping is not None and speed is not None:
             total += law_module("linear").damping_force(0.0 - part.gap, speed, tables.nodal_damping)
         part.normal_force[...] = total
-        normal = work.normal
+        if part.normal.strides[1] == 0:  # all nodes share a normal
+            normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
+        else:
+            normal = tuple(np.ascontiguousarray(part.normal[..., axis]) for axis in range(3))
         if not len(work.tangent):
-            for axis in range(3):
+            if self._flat:
+                reaction[..., 1:] = 0.0
+            for axis in range(1 if self._flat else 3):
                 # a negative force times a zero component is -0, which is no reaction of its own
                 np.add(total * normal[axis], 0.0, out=reaction[..., axis])
             return
         direction = self._sums(work.tangent, directed=True)
-        along = in_plane(direction, normal)
-        law = tables.friction
-        if law is not None and law.turned.size:  # u1 at an angle to +Y
-            there = normal if normal[0].shape[1] == 1 else tuple(axis[:, law.turned] for axis in normal)
-            for component, values in zip(along, vectors.turned(law.cosine, law.sine, there), strict=True):
-                component[:, law.turned] = values
-        sideward = self._tangential_reaction(part, state, work, (along, vectors.across(along, normal)), laid)
-        for axis, component in enumerate(vectors.reaction(total, normal, sideward)):
+        along = self._turned_axes(in_plane(direction, normal), normal)
+        sideward = self._tangential_reaction(part, state, work, (along, self._plane.across(along, normal)), laid)
+        for axis, component in enumerate(self._plane.reaction(total, normal, sideward)):
             reaction[..., axis] = component
 
     def _sums(self, values: FloatArray, *, directed: bool) -> Components:
         """Return sums (steps, k) of each component (c, steps, m + 2) of vectors of the elements."""
         sums = self._tables.line.sums(values.reshape(-1, values.shape[2]), directed=directed)
         return tuple(sums.reshape(*values.shape[:2], sums.shape[1]))
+
+    def _turned_axes(self, along: Components, normal: Components) -> Components:
+        """Set u1 of nodes with an angle to +Y."""
+        law = self._tables.friction
+        if law is None or not law.turned.size:
+            return along
+        there = normal if normal[0].shape[1] == 1 else tuple(axis[:, law.turned] for axis in normal)
+        for axis, values in zip(along, self._plane.turned(law.cosine, law.sine, there), strict=True):
+            axis[:, law.turned] = values
+        return along
 
     def _tangential_reaction(
         self,
@@ -166,15 +194,15 @@ class NodeLaws:
     ) -> Components:
         """Return components of the tangential reaction: friction and lateral springs."""
         along, across = axes
+        force: Components = tuple(np.zeros(along[0].shape) for _ in along)
         axial = sideways = np.zeros(along[0].shape)
-        force: Components = (axial, axial, axial)
         if state.friction is not None:
             axial, sideways = self._friction_forces(part, state, work, axes, laid)
-            force = vectors.blend(along, across, axial, sideways)
+            force = self._plane.blend(along, across, axial, sideways)
         if len(work.lateral):
             push = self._sums(work.lateral, directed=False)
-            force = vectors.added(force, push)
-            axial, sideways = axial + vectors.dot(along, push), sideways + vectors.dot(across, push)
+            force = self._plane.added(force, push)
+            axial, sideways = axial + self._plane.dot(along, push), sideways + self._plane.dot(across, push)
         if part.friction is not None:
             part.friction[..., 0], part.friction[..., 1] = axial, sideways
         return force
@@ -190,7 +218,7 @@ class NodeLaws:
         """Return friction along u1 and u2 (steps, k); update the stick points from step to step."""
         history, law = cast("FrictionHistory", state.friction), cast("FrictionLaw", self._tables.friction)
         along, across = axes
-        places = work.planes
+        plane, places, first = self._plane, work.planes, 3 - len(along)
         pressing = np.where(law.active, np.fmax(part.normal_force, 0.0), 0.0)
         closed = pressing > 0.0
         springs, limits = self._fixed + self._rising * pressing, self._coefficients * pressing
@@ -206,8 +234,8 @@ class NodeLaws:
             for point, place in zip(stick, places[:, step], strict=True):
                 point[new] = place.take(new)
             u, v = tuple(axis[step] for axis in along), tuple(axis[step] for axis in across)
-            away = places[:, step] - stick
-            elongation[0], elongation[1] = vectors.dot(u, away), vectors.dot(v, away)
+            away = places[first:, step] - stick[first:]
+            elongation[0], elongation[1] = plane.dot(u, away), plane.dot(v, away)
             spring, limit = springs[:, step], limits[:, step]
             if softening is not None:
                 softening.begin(places[:, step], on)
@@ -216,8 +244,8 @@ class NodeLaws:
             if walls is not None:
                 limit[1] += self._added(trial[1], *(values[step] for values in walls))
             force, slip = self._bounded(trial, limit, law.ellipse & close)
-            moved = vectors.blend(u, v, *law_module("friction").slip_distance(slip, elongation, force, spring))
-            for point, way in zip(stick, moved, strict=True):
+            moved = plane.blend(u, v, *law_module("friction").slip_distance(slip, elongation, force, spring))
+            for point, way in zip(stick[first:], moved, strict=True):
                 np.add(point, way, out=point)
             np.subtract(0.0, force, out=forces[:, step])
             slips[:, step] = slip
@@ -259,7 +287,7 @@ class NodeLaws:
         at, trench = self._in_trench, cast("TrenchRows", self._tables.trench)
         away = laid.away(laid.beside(trench), np.ascontiguousarray(places[..., at])).vector
         lateral = tuple(taken(axis, at) for axis in across)
-        offset = vectors.dot(lateral, away)
+        offset = self._plane.dot(lateral, away[3 - len(lateral) :])
         return law_module("trench").resistance(trench, offset, taken(pressing, at)), offset > 0.0, offset < 0.0
 
     def _added(self, trial: FloatArray, added: FloatArray, forward: BoolArray, back: BoolArray) -> FloatArray:

@@ -17,14 +17,15 @@ from mudline.model.contact.arrays import (
     as_range,
     taken,
 )
+from mudline.model.contact.directions import mean_normal
 from mudline.model.contact.input import AssignedLaw
 from mudline.model.contact.laws import PathLaw, law_module
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.tables import ContactState, LawTables, NormalRows, arrays_of
-from mudline.model.contact.vectors import Components, in_plane, units
+from mudline.model.contact.vectors import in_plane, units
 
 if TYPE_CHECKING:
-    from mudline.model.contact.laws.suction import SuctionHistory, SuctionLaw
+    from mudline.model.contact.laws.suction import SuctionHistory
     from mudline.model.contact.laws.unloading import UnloadingHistory
     from mudline.model.contact.tables import StepBatch
 
@@ -37,15 +38,14 @@ class Work(NamedTuple):
 
     Attributes:
         planes: (3, steps, n) coordinates; empty if nothing moves sideways.
-        normal: components (steps, n) of the normals of the nodes, (1, 1) if all share one.
         load: half of the force of each element.
-        tangent: (3, steps, m + 2) unit direction of each element; empty if nothing moves sideways.
-        lateral: (3, steps, m + 2) lateral force of each element on each of its nodes; empty without lateral springs.
+        tangent: (c, steps, m + 2) components of the unit direction of each element; over a horizontal seabed only those
+            in its plane.
+        lateral: components of the lateral force of each element on each of its nodes.
         ratio: z/D of each element; empty if no node needs it.
     """
 
     planes: FloatArray
-    normal: Components
     load: FloatArray
     tangent: FloatArray
     lateral: FloatArray
@@ -53,13 +53,13 @@ class Work(NamedTuple):
 
 
 class _Subset(NamedTuple):
-    """Elements with a law next to their normal law: columns among all, parameters, diameters, onsets (k,)."""
+    """Elements with a law next to their normal law: columns among all elements, parameters and diameters (k,)."""
 
     at: Picked
     elements: IndexArray
     columns: tuple[FloatArray, ...]
     diameter: FloatArray
-    onset: FloatArray
+    onset: FloatArray | float
 
 
 _Trench = tuple[FloatArray, BoolArray]
@@ -74,12 +74,14 @@ class ElementLaws:
     def __init__(self, tables: LawTables) -> None:
         self._tables = tables
         self._unsized = np.flatnonzero(np.isnan(tables.diameter))
+        self._onset: FloatArray | float = 0.0 if tables.onset is None else tables.onset
         self._normal = [(rows, as_range(rows.rows), tables.diameter[rows.rows]) for rows in tables.normal]
-        self._rises = list(map(law_module("linear").steepest_slopes, tables.given.curves)) if tables.steepens else []
         self._unloading, self._springs = self._subset(tables.unloading), self._subset(tables.springs)
         self._suction, self._lateral = self._subset(tables.suction), self._subset(tables.lateral)
         if self._suction is not None:
-            self._law: SuctionLaw = law_module("suction").SuctionLaw(*self._suction.columns)
+            from mudline.model.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
+
+            self._law = SuctionLaw(*self._suction.columns)
             self._least, self._counts = self._law.least_depth, bool(self._law.counts_cycles.any())
         self._in_trench: tuple[IndexArray, IndexArray] | None = None
         if self._suction is not None and self._unloading is not None:
@@ -91,14 +93,12 @@ class ElementLaws:
         if assigned is None:
             return None
         rows = assigned.rows
-        return _Subset(as_range(rows), rows, assigned.columns, self._tables.diameter[rows], self._tables.onset[rows])
+        onset = self._onset[rows] if isinstance(self._onset, np.ndarray) else self._onset
+        return _Subset(as_range(rows), rows, assigned.columns, self._tables.diameter[rows], onset)
 
     def run(self, batch: StepBatch, part: ContactResult, state: ContactState, work: Work) -> None:
         """Write the elements of a batch, and their values for the nodes."""
-        depth, contact = part.depth, part.contact  # of NaN where there is no seabed
-        np.subtract(0.0, self._of_elements(part.gap), out=depth)
-        np.divide(depth, self._tables.diameter, out=part.ratio)
-        np.greater(depth, self._tables.onset, out=contact)
+        depth, contact = self._write_depths(part)
         values = part.force, part.slope, part.stiffness
         trench = None
         if self._unloading is not None and state.unloading is not None:
@@ -108,10 +108,7 @@ class ElementLaws:
         if self._unsized.size:
             part.slope[:, self._unsized] = np.nan
         if self._springs is not None:
-            some = self._springs
-            force, stiffness = law_module("linear").spring_suction(some.onset - taken(depth, some.at), *some.columns)
-            for target, more in zip(values, (force, stiffness * some.diameter, stiffness), strict=True):
-                target[:, some.at] = taken(target, some.at) + more
+            self._apply_springs(self._springs, depth, values)
         if self._tables.damping is not None and batch.speed is not None:
             v = self._of_elements(batch.speed)
             part.force[...] += law_module("linear").damping_force(depth, v, self._tables.damping)
@@ -122,13 +119,9 @@ class ElementLaws:
             work.ratio[:, _INNER] = part.ratio
         if not len(work.tangent):
             return
-        ends = self._tables.line.at(work.planes.reshape(-1, work.planes.shape[2]))
-        first, second = (end.reshape(3, len(depth), -1) for end in ends)
-        work.tangent[..., _INNER] = along = units(second - first)
+        along = self._write_directions(work)
         if self._lateral is not None and state.touchdown is not None:
-            at = self._lateral.at
-            middle = 0.5 * first[..., at] + 0.5 * second[..., at]
-            self._apply_lateral(self._lateral, (along[..., at], middle), contact, state.touchdown, work)
+            self._apply_lateral(self._lateral, along, contact, part, state.touchdown, work)
 
     def _of_elements(self, values: FloatArray) -> FloatArray:
         """Return the means (steps, m) of values (steps, n) at both ends; halves first: their sum cannot overflow."""
@@ -136,6 +129,14 @@ class ElementLaws:
         mean: FloatArray = 0.5 * first
         mean += 0.5 * second
         return mean
+
+    def _write_depths(self, part: ContactResult) -> tuple[FloatArray, BoolArray]:
+        """Write depth, ratio and contact from the gaps of the nodes; NaN where there is no seabed."""
+        depth, contact = part.depth, part.contact
+        np.subtract(0.0, self._of_elements(part.gap), out=depth)
+        np.divide(depth, self._tables.diameter, out=part.ratio)
+        np.greater(depth, self._onset, out=contact)
+        return depth, contact
 
     def _apply_normal_laws(
         self, depth: FloatArray, touches: BoolArray, values: Values, part: ContactResult, paths: FloatArray | None
@@ -187,7 +188,7 @@ class ElementLaws:
         fresh, deepest = so_far[1:] > so_far[:-1], so_far[1:]
         reached = depth.copy()
         reached[:, some.at] = deepest
-        self._apply_normal_laws(reached, reached > self._tables.onset, values, part, paths)
+        self._apply_normal_laws(reached, reached > self._onset, values, part, paths)
         force, slope, stiffness = (taken(each, some.at) for each in values)
         force_max, steepest = np.maximum(force, 0.0), some.columns[0]
         if self._tables.steepens:
@@ -212,18 +213,20 @@ class ElementLaws:
         """Return the steepest slopes of the normal laws between the mudline and penetrations (steps, m)."""
         slopes = np.zeros(z.shape)
         for rows, at, diameter in self._normal:
-            if rows.path >= 0:  # has no unloading line
-                continue
             here = taken(z, at)
             if rows.curve >= 0:
                 curve = self._tables.given.curves[rows.curve]
-                steepest = (
-                    law_module("linear").steepest_slope(curve, self._rises[rows.curve], here / diameter) / diameter
-                )
+                steepest = law_module("linear").steepest_slope(curve, here / diameter) / diameter
             else:
                 steepest = rows.law.steepest(here, diameter, *rows.columns)
             slopes[:, at] = steepest
         return slopes
+
+    def _apply_springs(self, some: _Subset, depth: FloatArray, values: Values) -> None:
+        """Add springs against uplift."""
+        force, stiffness = law_module("linear").spring_suction(some.onset - taken(depth, some.at), *some.columns)
+        for target, more in zip(values, (force, stiffness * some.diameter, stiffness), strict=True):
+            target[:, some.at] = taken(target, some.at) + more
 
     def _apply_suction(
         self,
@@ -286,29 +289,43 @@ class ElementLaws:
             kept[...] = moved
         return states, reaches, factors
 
+    def _ends(self, work: Work) -> tuple[FloatArray, FloatArray]:
+        """Return coordinates (3, steps, m) of both ends of the elements."""
+        first, second = self._tables.line.at(work.planes.reshape(-1, work.planes.shape[2]))
+        shape = *work.planes.shape[:2], first.shape[1]
+        return first.reshape(shape), second.reshape(shape)
+
+    def _write_directions(self, work: Work) -> FloatArray:
+        """Write the unit directions of the elements; return the components that `work` has."""
+        first, second = self._ends(work)
+        directions = units(second - first)[3 - len(work.tangent) :]
+        work.tangent[..., _INNER] = directions
+        return directions
+
     def _apply_lateral(
         self,
         some: _Subset,
-        place: tuple[FloatArray, FloatArray],
+        along: FloatArray,
         contact: BoolArray,
+        part: ContactResult,
         touchdown: FloatArray,
         work: Work,
     ) -> None:
-        """Write the forces of lateral springs at directions and middles; update their touchdown points by step."""
-        (along, middle), normal = place, work.normal
-        if normal[0].shape[1] > 1:
-            line, ends = self._tables.line, some.elements
-            sides = line.first[ends], line.second[ends]
-            normal = vectors.mean_normal(*(tuple(axis[:, side] for axis in normal) for side in sides))
-        across = vectors.across(in_plane(tuple(along), normal), normal)
+        """Write the forces of lateral springs; update their touchdown points from step to step."""
+        plane = vectors.PLANES[len(along)]
+        normal = mean_normal(self._tables, some.elements, part.normal)
+        across = plane.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
         touches = taken(contact, some.at)
+        start, end = self._ends(work)
+        middle = 0.5 * start[..., some.at] + 0.5 * end[..., some.at]
         held, kept = np.empty(middle.shape), touchdown.T
         down = ~np.isnan(kept[0])
         for step, touch in enumerate(touches):
             new, down = touch & ~down, touch
             held[:, step] = kept = np.where(new, middle[:, step], kept)
         touchdown[...] = np.where(down, kept, np.nan).T
-        force = law_module("linear").lateral_force(some.columns[0], vectors.dot(across, middle - held))
+        first = 3 - len(along)
+        force = law_module("linear").lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
         force = np.where(touches, force, 0.0)
         for target, axis in zip(work.lateral, across, strict=True):
             target[:, _INNER][:, some.at] = axis * force

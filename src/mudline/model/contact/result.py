@@ -321,9 +321,10 @@ def blank_absent(part: ContactResult) -> None:
     """Set values without a position to NaN; depth, ratio and gap are NaN already."""
     for on_elements in (part.force, part.slope, part.stiffness):
         on_elements[:, ~part.evaluated] = np.nan
-    for at_nodes in (part.normal_force, part.reaction, part.friction):
-        if at_nodes is not None:
-            at_nodes[:, ~part.present] = np.nan
+    part.normal_force[:, ~part.present] = np.nan
+    part.reaction[:, ~part.present] = np.nan
+    if part.friction is not None:
+        part.friction[:, ~part.present] = np.nan
 
 
 def _repeated(values: NDArray[Any], shape: tuple[int, int]) -> NDArray[Any]:
@@ -358,27 +359,27 @@ def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, table
 
 def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, tables: LawTables) -> None:
     given = tables.given
-    _refuse_first("node", np.isinf(part.gap), given.node_ids, step, "its distance to the seabed overflows")
+    _refuse_node(np.isinf(part.gap), given.node_ids, step, "its distance to the seabed overflows")
     if speed is not None:
         here = ~np.isnan(part.gap)
-        _refuse_first("node", ~np.isfinite(speed) & here, given.node_ids, step, "its velocity is not finite")
+        _refuse_node(~np.isfinite(speed) & here, given.node_ids, step, "its velocity is not finite")
     infinite = np.isinf(part.ratio) | np.isinf(part.depth)
-    _refuse_first("element", infinite, given.element_ids, step, "its embedment ratio overflows")
+    _refuse_element(infinite, given.element_ids, step, "its embedment ratio overflows")
     known = ~np.isnan(part.depth)
     unbounded = ~np.isfinite(part.force) & known
     if unbounded.any():
         _refuse_force(part, int(np.argmax(unbounded)), step, tables)
     for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
-        _refuse_first("element", np.isinf(values), given.element_ids, step, f"its {what} overflows")
+        _refuse_element(np.isinf(values), given.element_ids, step, f"its {what} overflows")
     loads = np.zeros(len(given.node_ids))
     with np.errstate(all="ignore"):
         load = np.where(known, part.force * tables.half, 0.0)
         for end in (tables.line.first, tables.line.second):
             np.add.at(loads, end, load)
     at_node = ~(np.isfinite(loads[tables.line.first]) & np.isfinite(loads[tables.line.second]))
-    _refuse_first("element", at_node & known, given.element_ids, step, "the reaction at its nodes overflows")
+    _refuse_element(at_node & known, given.element_ids, step, "the reaction at its nodes overflows")
     wrong = ~np.isfinite(part.reaction).all(axis=-1) & part.present
-    _refuse_first("node", wrong, given.node_ids, step, "the reaction there overflows")
+    _refuse_node(wrong, given.node_ids, step, "the reaction there overflows")
 
 
 def refuse_pulling(part: ContactResult, first_step: int, tables: LawTables) -> None:
@@ -406,9 +407,13 @@ def _refuse_force(part: ContactResult, element: int, step: int, tables: LawTable
     raise ElementError(f"element {number} at step {step}: {why}", number, step)
 
 
-def _refuse_first(kind: str, wrong: BoolArray, ids: IdArray, step: int, what: str) -> None:
-    """Raise an error for the first wrong "node" or "element", if any."""
+def _refuse_node(wrong: BoolArray, ids: IdArray, step: int, what: str) -> None:
     if wrong.any():
-        number = int(ids[np.argmax(wrong)])
-        error = PositionError if kind == "node" else ElementError
-        raise error(f"{kind} {number} at step {step}: {what}", number, step)
+        node = int(ids[np.argmax(wrong)])
+        raise PositionError(f"node {node} at step {step}: {what}", node, step)
+
+
+def _refuse_element(wrong: BoolArray, ids: IdArray, step: int, what: str) -> None:
+    if wrong.any():
+        element = int(ids[np.argmax(wrong)])
+        raise ElementError(f"element {element} at step {step}: {what}", element, step)

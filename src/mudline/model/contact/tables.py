@@ -13,7 +13,7 @@ from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
 from mudline.model.contact.laws import NormalLaw, PathLaw, law_module
-from mudline.model.contact.lines import Incidence, directions_of
+from mudline.model.contact.line import Incidence
 from mudline.model.contact.seabed import heading
 
 if TYPE_CHECKING:
@@ -139,7 +139,7 @@ class LawTables:
         line: incidence of elements and nodes.
         half: (m,) half of the lengths.
         diameter: (m,) external diameters.
-        onset: (m,) penetration at which contact begins.
+        onset: (m,) penetration at which contact begins; None if it is 0 everywhere.
         normal: normal laws of elements.
         nodal: normal laws of nodes.
         unloading: stiffness of unloading lines.
@@ -164,9 +164,10 @@ class LawTables:
         self.line = Incidence(given.element_nodes, len(given.node_ids))
         self.half: FloatArray = 0.5 * given.length
         self.diameter = given.diameter
-        self.onset = given.onset()
-        self.normal, self._paths = _normal_rows(given.normal_laws)
-        self.nodal, _ = _normal_rows(given.nodal_laws)
+        onset = given.onset()
+        self.onset: FloatArray | None = onset if onset.any() else None
+        self.normal, self._paths = _with_paths([rows for law in given.normal_laws for rows in _normal_rows(law)])
+        self.nodal = [rows for law in given.nodal_laws for rows in _normal_rows(law)]
         self.unloading, self.springs, self.suction = map(given.assigned.get, ("unloading", "suction spring", "suction"))
         self.damping = _coefficients(given, "damping", len(self.half))
         self.nodal_damping = _coefficients(given, "nodal damping", len(given.node_ids))
@@ -174,18 +175,21 @@ class LawTables:
         self.friction: FrictionLaw | None = None
         if (friction := given.assigned.get("friction")) is not None:
             self.friction = _friction_law(friction, len(given.node_ids))
-        self.trench = self.level = None
-        if given.has("trench peak", "trench wall", "trench table", "trench level"):
+        self.trench = None
+        if self.friction is not None and given.has("trench peak", "trench wall", "trench table"):
             from mudline.model.contact.trenches import trench_rows  # noqa: PLC0415 - most friction has no trench
 
-            if self.friction is not None and given.has("trench peak", "trench wall", "trench table"):
-                self.trench = trench_rows(given, self.friction.coefficients[:, 1])
-            if given.has("trench level"):
-                self.level = trench_rows(given, None)
+            self.trench = trench_rows(given, self.friction.coefficients[:, 1])
         self.breakout = _breakout(given, self)
         broken = np.empty(0, np.intp) if self.breakout is None else self.breakout.rows
         self.shares: FloatArray = 1.0 / np.diff(self.line.start)[broken]
         self.embeds = self.breakout is not None and any(self.breakout.columns[at].any() for at in (1, 3))
+        self.level = None
+        if given.has("trench level"):
+            from mudline.model.contact.laws.trench import LEVEL  # noqa: PLC0415 - as above
+            from mudline.model.contact.trenches import trench_rows  # noqa: PLC0415 - as above
+
+            self.level = trench_rows(given, np.zeros(len(given.node_ids)), (LEVEL,))
         self._laid: tuple[FloatArray, LaidCentreline] | None = None
         self.pulling = _pulling(given)
         self.cuts = given.tension == "cut"
@@ -218,15 +222,6 @@ class LawTables:
             self._laid = kept = (laid, LaidCentreline(laid, self.line))
         return kept[1]
 
-    def lowered(self, points: FloatArray, laid: FloatArray, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return depth and gradient of trenches below nodes at `points` (n, 3); TypeError if none lowers the seabed."""
-        from mudline.model.contact.trenches import level_at  # noqa: PLC0415 - few trenches do
-
-        if self.level is None:
-            raise TypeError("no trench lowers the seabed")
-        lateral = directions_of(self.line, self.friction, points, normal).axes[1]
-        return level_at(self.level, self.laid_line(laid), points, lateral)
-
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""
         count = {"elements": len(self.half), "nodes": len(self.given.node_ids)}
@@ -238,30 +233,33 @@ class LawTables:
         return ContactState(paths=None if self._paths is None else self._paths.copy(), **histories)
 
 
-def _normal_rows(laws: list[AssignedLaw]) -> tuple[list[NormalRows], FloatArray | None]:
-    """Return the rows of normal laws, and the memory (k, c) of elements on a path before the first step, if any.
+def _normal_rows(assigned: AssignedLaw) -> list[NormalRows]:
+    """Return the rows of a normal law; a law with curves has one entry for each curve."""
+    law = assigned.law
+    if not isinstance(law, NormalLaw):
+        return []
+    if not law.tables:
+        return [NormalRows(law, assigned.rows, assigned.columns)]
+    index = assigned.columns[-1].astype(np.intp)
+    return [
+        NormalRows(law, assigned.rows[index == each], (), each) for each in np.flatnonzero(np.bincount(index)).tolist()
+    ]
 
-    A law with curves has one entry for each curve.
-    """
-    rows: list[NormalRows] = []
-    starts: list[tuple[float, ...]] = []
-    for assigned in laws:
-        law = assigned.law
-        if isinstance(law, PathLaw):
-            rows.append(NormalRows(law, assigned.rows, assigned.columns, path=len(starts)))
-            starts += [law.start] * len(assigned.rows)
-        elif isinstance(law, NormalLaw) and law.tables:
-            index = assigned.columns[-1].astype(np.intp)
-            curves = np.flatnonzero(np.bincount(index)).tolist()
-            rows += [NormalRows(law, assigned.rows[index == each], (), each) for each in curves]
-        elif isinstance(law, NormalLaw):
-            rows.append(NormalRows(law, assigned.rows, assigned.columns))
+
+def _with_paths(normal: list[NormalRows]) -> tuple[list[NormalRows], FloatArray | None]:
+    """Return normal laws with their places in the memory of elements on a path, and its initial values (k, c)."""
+    starts = [rows.law.start for rows in normal if isinstance(rows.law, PathLaw) for _ in rows.rows]
     if not starts:
-        return rows, None
-    memory = np.zeros((len(starts), max(map(len, starts))))
-    for held, start in zip(memory, starts, strict=True):
-        held[: len(start)] = start
-    return rows, memory
+        return normal, None
+    memory, placed, first = np.zeros((len(starts), max(map(len, starts)))), [], 0
+    for rows in normal:
+        if isinstance(rows.law, PathLaw):
+            memory[first : first + len(rows.rows), : len(rows.law.start)] = rows.law.start
+            placed.append(rows._replace(path=first))
+            first += len(rows.rows)
+        else:
+            placed.append(rows)
+    return placed, memory
 
 
 def _coefficients(given: ContactInput, name: str, count: int) -> FloatArray | None:
@@ -274,7 +272,8 @@ def _lateral(given: ContactInput) -> AssignedLaw | None:
     springs = given.assigned.get("lateral")
     if springs is None:
         return None
-    return replace(springs, parameters={"stiffness": springs["stiffness"] * (0.5 * given.length[springs.rows])})
+    with np.errstate(over="ignore"):  # a step refuses the reaction
+        return replace(springs, parameters={"stiffness": springs["stiffness"] * (0.5 * given.length[springs.rows])})
 
 
 def _breakout(given: ContactInput, tables: LawTables) -> AssignedLaw | None:

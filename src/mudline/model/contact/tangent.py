@@ -15,8 +15,8 @@ import numpy as np
 
 from mudline.basics.short_repr import short_repr
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.model.contact.directions import Directions, directions_of, level, projected
 from mudline.model.contact.laws import Moving, PathLaw, law_module
-from mudline.model.contact.lines import Directions, along_seabed, directions_of
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.tables import ContactState, LawTables
 
@@ -90,6 +90,8 @@ class _Step(NamedTuple):
     Attributes:
         points, normal: (n, 3).
         slope: (n, 3) gradient of the height above the seabed, `normal` outside of trenches.
+        ends: (m, 2) nodes of the elements.
+        half: (m,) half lengths.
         before, after: states before and after the step.
     """
 
@@ -97,6 +99,8 @@ class _Step(NamedTuple):
     points: FloatArray
     normal: FloatArray
     slope: FloatArray
+    ends: IndexArray
+    half: FloatArray
     result: ContactResult
     before: ContactState
     after: ContactState
@@ -119,8 +123,8 @@ def assemble(
     normal = np.asarray(result.normal)
     slope, laid = normal, points if states[0].laid is None else states[0].laid
     if tables.level is not None:
-        slope = normal + tables.lowered(points, laid, normal)[1]
-    step = _Step(tables, points, normal, slope, result, *states)
+        slope = normal + level(tables, points, laid, normal).gradient
+    step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
     stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
     by_position, by_velocity = _BlockSum(nodes), _BlockSum(nodes)
     _add_normal(step, (stiffness, own), step.slope, by_position)
@@ -159,10 +163,10 @@ def _nodal_stiffness(step: _Step) -> FloatArray:
 def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return minus d force / d pull-out velocity of elements (m,) and of nodes (n,)."""
     tables, depth = step.tables, step.result.depth
-    uplift = tables.onset - depth
+    uplift = (0.0 if tables.onset is None else tables.onset) - depth
     if tables.unloading is not None and step.after.unloading is not None:
         uplift[tables.unloading.rows] = step.after.unloading.bottom - depth[tables.unloading.rows]
-    ends, states = step.tables.line.ends, (step.before.suction, step.after.suction)
+    ends, states = step.ends, (step.before.suction, step.after.suction)
     of_elements = depth, 0.5 * speed[ends[:, 0]] + 0.5 * speed[ends[:, 1]], uplift
     of_nodes = 0.0 - step.result.gap, speed, step.result.gap
     damping, own = np.zeros(len(depth)), np.zeros(len(speed))
@@ -178,9 +182,9 @@ def _add_normal(step: _Step, by_height: Heights, slope: FloatArray, blocks: _Blo
     """Add normal forces along fixed normals, from derivatives by the heights of elements (m,) and of nodes (n,)."""
     stiffness, own = by_height
     used = np.flatnonzero(stiffness)
-    share = -0.5 * step.tables.half[used] * stiffness[used]
-    for at in step.tables.line.ends[used].T:
-        for by in step.tables.line.ends[used].T:
+    share = -0.5 * step.half[used] * stiffness[used]
+    for at in step.ends[used].T:
+        for by in step.ends[used].T:
             blocks.add(at, by, share[:, None, None] * _outer(step.normal[at], slope[by]))
     nodes = np.flatnonzero(own)
     blocks.add(nodes, nodes, -own[nodes, None, None] * _outer(step.normal[nodes], slope[nodes]))
@@ -194,11 +198,11 @@ def _add_lateral(step: _Step, blocks: _BlockSum) -> None:
     rows = np.flatnonzero(step.result.contact[lateral.rows])
     new = np.isnan(before[rows, 0])
     stiffness = np.where(new, 0.0, lateral.columns[0][rows])  # at touchdown there is no force yet
-    first, second = step.tables.line.ends[lateral.rows[rows]].T
+    first, second = step.ends[lateral.rows[rows]].T
     mean = step.normal[first] + step.normal[second]
     mean = mean / _size(mean)[:, None]
     span = step.points[second] - step.points[first]
-    across = np.cross(mean, along_seabed(_unit(span)[0], mean))
+    across = np.cross(mean, projected(_unit(span)[0], mean))
     arm = 0.5 * step.points[first] + 0.5 * step.points[second] - after[rows]
     blocks_by = law_module("linear").lateral_tangent(stiffness, across, arm, _turning(span, mean))
     for by, block in zip((first, second), blocks_by, strict=True):
@@ -228,7 +232,7 @@ def _add_friction(
     absent = np.isnan(step.result.gap)
     places = np.where(absent[:, None], 0.0, step.points)
     compression = np.where(absent, 0.0, step.result.normal_force)
-    directions = directions_of(tables.line, law, step.points, step.normal)
+    directions = directions_of(tables, step.points, step.normal)
     friction, extra = slide(law, history, places, directions.axes, compression), None
     if tables.trench is not None:
         from mudline.model.contact.trenches import added_limit  # noqa: PLC0415 - most friction has no trench
@@ -292,10 +296,10 @@ def _add_compression(
     elements, own = by_height
     blocks.add(closed, closed, -own[closed, None, None] * _outer(push[closed], slope[closed]))
     held = _marked(closed, len(own))
-    for at in step.tables.line.ends.T:
+    for at in step.ends.T:
         used = np.flatnonzero((elements != 0.0) & held[at])
-        share = -0.5 * step.tables.half[used] * elements[used]
-        for by in step.tables.line.ends[used].T:
+        share = -0.5 * step.half[used] * elements[used]
+        for by in step.ends[used].T:
             blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], slope[by]))
 
 
@@ -304,7 +308,7 @@ def _add_turning(
 ) -> None:
     """Add the turning of u1 and u2 with the line; `turned` (n, 3) is d friction by a turn about the normal."""
     held = _marked(closed, len(step.points)) & directions.follows
-    second, (start, end) = directions.axes[1], step.tables.line.ends.T
+    second, (start, end) = directions.axes[1], step.ends.T
     span = step.points[end] - step.points[start]
     unit, length = _unit(span)
     for side, at in enumerate((start, end)):

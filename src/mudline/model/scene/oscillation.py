@@ -111,14 +111,12 @@ class _Carried:
 
 def _of_elements(scene: ResolvedDeck, given: ContactInput, facts: Stiffest, carried: _Carried) -> Iterator[Oscillation]:
     """Yield every kind of contact whose frequency is known."""
-    from mudline.model.contact.laws import NormalLaw, law_named  # noqa: PLC0415 - loaded when it is needed
+    from mudline.model.contact.laws import is_normal  # noqa: PLC0415 - loaded when it is needed
 
     by_law = {law.law: law for law in facts.laws}
     springs_of = {law.law: law.at_nodes for law in facts.laws if law.at_nodes is not None}
     sections = scene.section_table.of_element
-    springs = [
-        law.stiffness for name, law in by_law.items() if law.per == "length" and isinstance(law_named(name), NormalLaw)
-    ]
+    springs = [law.stiffness for name, law in by_law.items() if law.per == "length" and is_normal(name)]
     normal = np.fmax.reduce(springs) if springs else np.full(len(sections), np.nan)
     back = scene.extensions.get("SEABED UNLOADING")
     blocks = np.full(len(sections), -1) if back is None else back.of_element

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.model.contact import vectors
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.lines import directions_of
+from mudline.model.contact.directions import directions_of
 from mudline.model.contact.tables import LawTables
 from mudline.model.contact.vectors import in_plane
 from tests.helpers.builders.contact import LINEAR, chain, friction
@@ -26,14 +26,13 @@ def axes(
     inputs = chain([LINEAR] * (len(points) - 1), friction(len(points), angle=angle))
     if ends is not None:
         inputs = replace(inputs, element_nodes=np.array(ends, np.intp))
-    tables = LawTables(inputs)
-    return directions_of(tables.line, tables.friction, points, normals).axes
+    return directions_of(LawTables(inputs), points, normals).axes
 
 
 def projected(wanted: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The unit projections (n, 3) on planes of unit normals, or what stands in for them, and n x these."""
     first = in_plane(tuple(wanted.T), tuple(normals.T))
-    return np.stack(first, axis=1), np.stack(vectors.across(first, tuple(normals.T)), axis=1)
+    return np.stack(first, axis=1), np.stack(vectors.across_3(first, tuple(normals.T)), axis=1)
 
 
 def test_along_a_bent_line() -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mudline.model.contact import ElementError
 from mudline.model.contact.arrays import FloatArray, IndexArray
 from mudline.model.contact.laws.trench import on_wall, wall_coefficient
-from mudline.model.contact.lines import Incidence
+from mudline.model.contact.line import Incidence
 from mudline.model.contact.tables import LawTables
 from mudline.model.contact.trenches import LaidCentreline
 from tests.helpers.builders.contact import ALONG_Y, LINEAR, NONE, chain, friction, on, trench

@@ -12,7 +12,7 @@ This module makes the input of the loops: tables with a row for each element or 
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -40,24 +40,53 @@ NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
 """Kinds of normal laws of elements; laws with an equation are numbered from the last kind on."""
 
 
-def features_of(tables: LawTables) -> frozenset[str]:
-    """Return the names of the features of a scene that the compiled loops depend on."""
-    friction = tables.friction
+class Features(NamedTuple):
+    """Features of a scene that the compiled loops depend on."""
+
+    flat: bool
+    curves: bool
+    paths: bool
+    cuts: bool
+    unloading: bool
+    steepens: bool
+    springs: bool
+    damping: bool
+    nodal_damping: bool
+    suction: bool
+    slides: bool
+    turns: bool
+    lateral: bool
+    nodal: bool
+    friction: bool
+    elliptic: bool
+    turned: bool
+    trench: bool
+    tables: bool
+    breakout: bool
+    embeds: bool
+    velocities: bool
+
+
+def features_of(tables: LawTables, *, flat: bool) -> Features:
+    """Return the features of a scene."""
+    friction, trench = tables.friction, tables.trench
     own = "unloading", "springs", "damping", "nodal_damping", "suction", "lateral", "friction", "trench", "breakout"
-    has = {name: getattr(tables, name) is not None for name in own} | {
-        "curves": any(rows.curve >= 0 for rows in tables.normal),
-        "paths": any(rows.path >= 0 for rows in tables.normal),
-        "cuts": tables.cuts,
-        "steepens": tables.steepens,
-        "slides": friction is not None or tables.lateral is not None,
-        "turns": tables.line.turns,
-        "nodal": bool(tables.nodal),
-        "elliptic": friction is not None and bool(friction.ellipse.any()),
-        "turned": friction is not None and bool(friction.turned.size),
-        "embeds": tables.embeds,
-        "velocities": tables.velocities,
-    }
-    return frozenset(name for name, present in has.items() if present)
+    return Features(
+        **{name: getattr(tables, name) is not None for name in own},
+        flat=flat,
+        curves=any(rows.curve >= 0 for rows in tables.normal),
+        paths=any(rows.path >= 0 for rows in tables.normal),
+        cuts=tables.cuts,
+        steepens=tables.steepens,
+        slides=friction is not None or tables.lateral is not None,
+        turns=tables.line.turns,
+        nodal=bool(tables.nodal),
+        elliptic=friction is not None and bool(friction.ellipse.any()),
+        turned=friction is not None and bool(friction.turned.size),
+        tables=trench is not None and bool((trench.table >= 0).any()),
+        embeds=tables.embeds,
+        velocities=tables.velocities,
+    )
 
 
 def formulas(tables: LawTables) -> list[NormalRows]:
@@ -76,7 +105,7 @@ def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
     index[:, FIRST], index[:, SECOND] = tables.line.first, tables.line.second
     index[:, KIND] = NO_LAW
     numbers[:, DIAMETER] = given.diameter
-    numbers[:, ONSET] = tables.onset
+    numbers[:, ONSET] = 0.0 if tables.onset is None else tables.onset
     for kind, rows in enumerate(formulas(tables), FIRST_LAW):
         index[rows.rows, KIND] = kind
         index[rows.rows, PATH] = np.arange(len(rows.rows)) + rows.path if rows.path >= 0 else NOTHING

@@ -40,7 +40,7 @@ from mudline.model.contact.compiled.functions import Loop, edition
 from mudline.model.contact.compiled.loops import whole_loop
 from mudline.model.contact.laws import MODULES, PathLaw, every, where
 from mudline.model.contact.result import ContactResult
-from mudline.model.contact.seabed import Seabed
+from mudline.model.contact.seabed import FlatSeabed, Seabed
 from mudline.model.contact.tables import IN_PLACE, ContactState, LawTables, NormalRows, StepBatch, arrays_of
 
 _BATCH = 3 * 2**19
@@ -54,12 +54,15 @@ _WORTH_THREADS = 60_000
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
+def _pick(condition: bool, value: float, otherwise: float) -> float:  # noqa: FBT001 - as `where` is called
+    """Return one of two numbers, see `where`."""
+    return value if condition else otherwise
+
+
 _INNER: Any = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
 """Options of functions that only loops call: no contraction of products and sums, divisions as in numpy."""
 
-overload(where, jit_options=_INNER, strict=False)(
-    lambda *_: lambda condition, value, otherwise: value if condition else otherwise
-)
+overload(where, jit_options=_INNER, strict=False)(lambda *_: _pick)
 overload(every, jit_options=_INNER, strict=False)(lambda _: lambda condition: condition)
 
 
@@ -106,11 +109,10 @@ class CompiledDriver:
         self._pool: ThreadPoolExecutor | None = None
         self._normal = None if seabed.same_normal is None else read_only(seabed.same_normal.reshape(1, 1, 3))
         self._nodes, self._elements = len(given.node_ids), len(given.element_ids)
-        self._has = has = features_of(tables)
+        has = features_of(tables, flat=isinstance(seabed, FlatSeabed))
+        self._has = has
         normal = formulas(tables)
-        slopes = tuple(
-            (_as_reaction(rows.law.steepest), len(rows.law.parameters)) for rows in normal if "steepens" in has
-        )
+        slopes = tuple((_as_reaction(rows.law.steepest), len(rows.law.parameters)) for rows in normal if has.steepens)
         sources = edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
         paths = tuple(rows.law for rows in normal if isinstance(rows.law, PathLaw))
         self._loop = _loop(
@@ -132,7 +134,7 @@ class CompiledDriver:
             ),
         )  # fmt: skip
         self._made: WeakKeyDictionary[ContactResult | ContactState, tuple[Any, ...]] = WeakKeyDictionary()
-        ends, elements_at = (line.ends, line.beside) if "trench" in has else (np.empty((0, 2)), np.empty((0, 2)))
+        ends, elements_at = (line.ends, line.beside) if has.trench else (np.empty((0, 2)), np.empty((0, 2)))
         self._beside = beside(ends, elements_at)
         self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
         """Number of steps at a time that is fastest."""
@@ -153,11 +155,10 @@ class CompiledDriver:
         speed = batch.speed
         after.remember(state, IN_PLACE)
         points, arrays = self._arrays(part, batch.points)
-        shape, none = (len(points), self._elements, 3), (0, 0, 3)
         job = (
             *self._fixed, points, _NO_SPEED if speed is None else speed,
             self._laid_tables(batch.laid, complete=batch.complete),
-            (np.empty(shape if "slides" in self._has else none), np.empty(shape if "lateral" in self._has else none)),
+            self._work(len(points)),
             arrays, self._remembered(state), self._remembered(after),
         )  # fmt: skip
         try:
@@ -176,6 +177,12 @@ class CompiledDriver:
             self._pool = ThreadPoolExecutor(self._threads)
         pool = self._pool
         return sum(sum(pool.map(lambda ranges: self._loop(ranges, *job), shares)) for shares in self._shares)
+
+    def _work(self, steps: int) -> tuple[Any, ...]:
+        """Return the arrays for directions and lateral forces of elements, which nodes need."""
+        components = 2 if self._has.flat else 3
+        shape, none = (steps, self._elements, components), (0, 0, components)
+        return np.empty(shape if self._has.slides else none), np.empty(shape if self._has.lateral else none)
 
     def _arrays(self, part: ContactResult, points: FloatArray) -> tuple[Any, ...]:
         """Return positions and the arrays of a result as the loops take them; made once for each result."""

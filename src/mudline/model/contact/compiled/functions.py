@@ -12,11 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from mudline.model.contact import compiled as col
 from mudline.model.contact import vectors
-from mudline.model.contact.compiled import NOTHING
+from mudline.model.contact.compiled import FLOOR, LEAST_DEPTH, NOTHING, PER_CYCLE
 from mudline.model.contact.laws import MODULES, NormalLaw, PathLaw
-from mudline.model.contact.laws.breakout import reached, shares
 from mudline.model.contact.laws.friction import in_box, in_ellipse
 from mudline.model.contact.laws.suction import (
     BROKEN,
@@ -27,7 +25,7 @@ from mudline.model.contact.laws.suction import (
     next_state,
     suction_force,
 )
-from mudline.model.contact.laws.trench import PEAK, WALL, in_table, on_wall, peak_share, share_of_piece
+from mudline.model.contact.laws.trench import in_table, share_of_piece
 from mudline.model.contact.laws.unloading import line_stiffness, on_line, trench_bottom
 
 Loop = Callable[..., int]
@@ -38,7 +36,6 @@ Array = Any
 Index = Any
 """An unsigned index."""
 Point = tuple[float, float, float]
-NOWHERE: Point = (0.0, 0.0, 0.0)
 ONE = np.uint64(1)
 """Unsigned 1: with a signed 1, sums of indices would become floats."""
 
@@ -85,11 +82,6 @@ def choice(wrap: Wrap, functions: tuple[Callable[..., Any], ...]) -> Callable[..
     return wrap(chosen)  # type: ignore[no-any-return]
 
 
-def nothing(*_: Any) -> tuple[float, float]:
-    """Return no force and no stiffness, of a scene without laws with equations or with paths."""
-    return 0.0, 0.0
-
-
 def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: int) -> Callable[..., Any]:
     """Return a function that evaluates the law of a kind, from 0: (kind, z, diameter, table, row).
 
@@ -104,6 +96,9 @@ def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: 
             return float(f), float(k)
 
         return at_row
+
+    def nothing(_z: float, _diameter: float, _table: Array, _row: int) -> tuple[float, float]:
+        return 0.0, 0.0
 
     return choice(wrap, tuple(of_law(*law) for law in laws) or (nothing,))
 
@@ -134,7 +129,12 @@ def followed(wrap: Wrap, laws: tuple[PathLaw, ...], first: int) -> Callable[...,
 
         return follow
 
-    return choice(wrap, tuple(map(of_law, laws)) or (nothing,))
+    def straight(
+        _z: float, _diameter: float, _table: Array, _row: int, _paths: Array, _held: int
+    ) -> tuple[float, float]:
+        return 0.0, 0.0
+
+    return choice(wrap, tuple(map(of_law, laws)) or (straight,))
 
 
 def last_at_or_below(points: Array, begin: Index, end: Index, value: float) -> Index:
@@ -165,16 +165,8 @@ def direction_of(points: Array, step: Index, a: Index, b: Index) -> Point:
         dz = dz / scale if math.isfinite(dz) else 0.0
         square = dx * dx + dy * dy + dz * dz
         square = square if square > 0.0 else math.inf
-    share = 1.0 / np.sqrt(square)
+    share = vectors.tangent_share(square)
     return dx * share, dy * share, dz * share
-
-
-def along_seabed(vector: Point, normal: Point) -> Point:
-    """Return the unit projection of a vector on the seabed; the default direction for a vector along the normal."""
-    along, exists = vectors.projected(vector, normal)
-    if not exists:
-        along = vectors.default(normal)
-    return along
 
 
 Numbers = tuple[float, ...]
@@ -212,7 +204,7 @@ def next_suction(
     """
     armed, state, (v_max, factor, depth) = before
     g = h = 0.0
-    slow, completed, now, largest, reach = False, False, 0, 0.0, law[col.LEAST_DEPTH]
+    slow, completed, now, largest, reach = False, False, 0, 0.0, law[LEAST_DEPTH]
     if pressed:
         completed = armed and v_max > 0.0
         armed, now = True, COMPRESSION
@@ -227,11 +219,11 @@ def next_suction(
             g, h = suction_force(uplift, v, reach, (law[0] * factor, law[1], law[7], law[4], law[5]))
             slow = v < law[7] and law[1] < 2.0
         elif now == 0:
-            reach = law[col.LEAST_DEPTH]
+            reach = law[LEAST_DEPTH]
     else:
         armed = False
     if completed:
-        factor = after_cycle(factor, law[col.PER_CYCLE], law[col.FLOOR])
+        factor = after_cycle(factor, law[PER_CYCLE], law[FLOOR])
     return (armed, now, (largest, factor, reach)), g, h, slow
 
 
@@ -240,7 +232,7 @@ def on_piece(laid: Array, ends: Array, element: Index, point: Point) -> tuple[fl
     a, b = ends[element, 0], ends[element, 1]
     x, y, z = laid[a, 0], laid[a, 1], laid[a, 2]
     span = (laid[b, 0] - x, laid[b, 1] - y, laid[b, 2] - z)
-    square = vectors.dot(span, span)
+    square = vectors.dot_3(span, span)
     inverse = 1.0 / square if square > vectors.LEAST_SQUARE else 0.0
     x, y, z = point[0] - x, point[1] - y, point[2] - z
     share = np.minimum(np.maximum(share_of_piece((x, y, z), span, inverse), 0.0), 1.0)
@@ -274,35 +266,6 @@ def from_laid(laid: Array, beside: Array, node: Index, point: Point) -> Point:
                 current, share, x, y, z, square = following, second[0], second[1], second[2], second[3], second[4]
                 walks = share <= 0.0 or share >= 1.0
     return x, y, z
-
-
-def trench_limit(i: int, total: float, p: Point, across: Point, forward: bool, trenches: Array) -> float:  # noqa: FBT001
-    """Return the resistance of trenches against the lateral motion of a node to one side."""
-    ((first, behind), index, table, lines, rows), (laid, beside) = trenches
-    added = 0.0
-    for at in range(first[i], behind[i]):
-        line, kind, amount = index[at, col.CENTRELINE], index[at, col.TRENCH_KIND], table[at, col.AMOUNT]
-        away = from_laid(laid, beside, i, p) if line == NOTHING else from_straight(lines, line, p)
-        offset = vectors.dot(across, away)
-        if (offset > 0.0) if forward else (offset < 0.0):
-            distance, inner, outer = np.abs(offset), table[at, col.INNER], table[at, col.OUTER]
-            if kind == PEAK:
-                added += amount * peak_share(distance, inner, outer, table[at, col.STEEPNESS])
-            elif kind == WALL:
-                added += amount * total * on_wall(distance, inner, outer)
-            else:
-                begin, end = index[at, col.TABLE_START], index[at, col.TABLE_END]
-                added += amount * table_resistance(rows, begin, end, distance)
-    return added
-
-
-def softened(at: int, p: Point, across: Point, deep: float, table: Array, held: Array) -> tuple[float, float]:
-    """Update a node with a breakout, and return the remaining spring and limit; `deep` is the sum of z/D."""
-    distance = vectors.dot(across, (p[0] - held[0, at], p[1] - held[1, at], p[2] - held[2, at]))
-    law: Numbers = (table[at, 0], table[at, 1], table[at, 2], table[at, 3], table[at, 4])
-    held[3, at], held[4, at] = reached((held[3, at], held[4, at]), distance, deep * table[at, 5], law)
-    share, _, softer = shares(held[3, at], held[4, at], law)
-    return softer, share
 
 
 def table_resistance(rows: Array, begin: Index, end: Index, distance: float) -> float:

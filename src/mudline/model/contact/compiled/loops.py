@@ -10,18 +10,19 @@ import numpy as np
 
 from mudline.model.contact import compiled as col
 from mudline.model.contact import vectors
-from mudline.model.contact.compiled import FIRST_LAW, NOTHING, ON_CURVE
+from mudline.model.contact.compiled import FIRST_LAW, NOTHING, ON_CURVE, Features
 from mudline.model.contact.compiled.functions import (
-    NOWHERE,
     ONE,
     Array,
     Index,
     Loop,
     Numbers,
+    Point,
     Wrap,
-    along_seabed,
     direction_of,
     followed,
+    from_laid,
+    from_straight,
     in_limits,
     last_at_or_below,
     next_suction,
@@ -29,18 +30,36 @@ from mudline.model.contact.compiled.functions import (
     one_of,
     point_of,
     row_of,
-    softened,
-    trench_limit,
+    table_resistance,
 )
 from mudline.model.contact.laws import PathLaw
+from mudline.model.contact.laws.breakout import reached, shares
 from mudline.model.contact.laws.friction import slip_distance
 from mudline.model.contact.laws.linear import damping_force, lateral_force, on_segment, spring_suction
 from mudline.model.contact.laws.suction import SUCTION
+from mudline.model.contact.laws.trench import PEAK, WALL, on_wall, peak_share
+
+
+def _components(wrap: Wrap, has: Features) -> tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
+    """Return functions that take, read and write the components of a vector in the plane of the seabed."""
+    flat, axes = has.flat, 2 if has.flat else 3
+
+    def in_plane(vector: Point) -> Numbers:
+        return vector[1:] if flat else vector
+
+    def read(values: Array, step: Index, row: Index) -> Numbers:
+        return (values[step, row, 0], values[step, row, 1]) if flat else point_of(values, step, row)
+
+    def write(values: Array, step: Index, row: Index, vector: Numbers) -> None:
+        for axis in range(axes):
+            values[step, row, axis] = vector[axis]
+
+    return wrap(in_plane), wrap(read), wrap(write)
 
 
 def elements_loop(
     wrap: Wrap,
-    has: frozenset[str],
+    has: Features,
     laws: tuple[tuple[Callable[..., Any], int], ...],
     paths: tuple[PathLaw, ...],
     slopes: tuple[tuple[Callable[..., Any], int], ...],
@@ -51,12 +70,15 @@ def elements_loop(
     `laws` are the normal laws with equations, `paths` the first of them, which follow a path. `slopes` are their
     steepest slopes in the form of reactions, if an unloading line may be less steep than the virgin path.
     """
-    curves, cuts, follows, springs = "curves" in has, "cuts" in has, "paths" in has, "springs" in has
-    unloading, steepens = "unloading" in has, "steepens" in has
-    suction, slides, lateral, damps = "suction" in has, "slides" in has, "lateral" in has, "damping" in has
+    curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
+    suction, slides, lateral, flat, damps = has.suction, has.slides, has.lateral, has.flat, has.damping
+    plane = vectors.PLANES[2 if has.flat else 3]
+    project, default, cross, dot, blend = plane.project, plane.default, plane.across, plane.dot, plane.blend
+    in_plane, _, write = _components(wrap, has)
+    nothing = (0.0, 0.0) if has.flat else (0.0, 0.0, 0.0)
     suction_law = row_of(wrap, col.SUCTION_COLUMNS)
     normal_law, steepest = one_of(wrap, laws, col.LAW), one_of(wrap, slopes, col.LAW)
-    follow = followed(wrap, paths, col.LAW)
+    follow, follows = followed(wrap, paths, col.LAW), has.paths
 
     def loop(
         begin: Index, end: Index, tables: Array, points: Array, speed: Array, work: Array, part: Array, before: Array,
@@ -145,13 +167,14 @@ def elements_loop(
                     continue
 
                 # only nodes with a normal force use a direction: NaN marks an element that wrote none
-                unit = push = NOWHERE
+                unit = nothing
                 if touches:
-                    unit = direction_of(points, step, a, b)
-                    tangent[step, e, 0], tangent[step, e, 1], tangent[step, e, 2] = unit
+                    unit = in_plane(direction_of(points, step, a, b))
+                    write(tangent, step, e, unit)
                 else:
                     tangent[step, e, 0] = np.nan
                 if lateral:
+                    push = nothing
                     if index[e, col.SPRINGS_BACK] != NOTHING:
                         held, place = index[e, col.SPRINGS_BACK], (np.nan, np.nan, np.nan)
                         if touches:
@@ -161,26 +184,81 @@ def elements_loop(
                             if math.isnan(place[0]):
                                 place = (x, y, z)
                             n = point_of(normals, 0, 0)
-                            if normals.shape[1] > 1:
+                            if not flat and normals.shape[1] > 1:
                                 n = vectors.mean_normal(point_of(normals, step, a), point_of(normals, step, b))
-                            across = vectors.across(along_seabed(unit, n), n)
-                            arm = (x - place[0], y - place[1], z - place[2])
-                            size = lateral_force(table[e, col.LATERAL], vectors.dot(across, arm))
-                            push = (across[0] * size, across[1] * size, across[2] * size)
+                            along, exists = project(unit, n)
+                            if not exists:
+                                along = default(n)
+                            across = cross(along, n)
+                            arm = in_plane((x - place[0], y - place[1], z - place[2]))
+                            size = lateral_force(table[e, col.LATERAL], dot(across, arm))
+                            push = blend(across, nothing, size, 0.0)
                         touchdown[0, held], touchdown[1, held], touchdown[2, held] = place
-                    sideways[step, e, 0], sideways[step, e, 1], sideways[step, e, 2] = push
+                    write(sideways, step, e, push)
         return wrong
 
     return loop
 
 
-def nodes_loop(wrap: Wrap, has: frozenset[str], laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
+def _trench_limit(has: Features) -> Callable[..., Any]:
+    """Return a function for the resistance of trenches against the lateral motion of a node to one side."""
+    flat, tables = has.flat, has.tables
+    dot = vectors.PLANES[2 if has.flat else 3].dot
+
+    def walls(i: int, total: float, p: Point, across: Array, forward: bool, trenches: Array) -> float:  # noqa: FBT001
+        ((first, behind), index, table, lines, rows), (laid, beside) = trenches
+        added = 0.0
+        for at in range(first[i], behind[i]):
+            line, kind, amount = index[at, col.CENTRELINE], index[at, col.TRENCH_KIND], table[at, col.AMOUNT]
+            x, y, z = from_laid(laid, beside, i, p) if line == NOTHING else from_straight(lines, line, p)
+            offset = dot(across, (y, z)) if flat else dot(across, (x, y, z))
+            if (offset > 0.0) if forward else (offset < 0.0):
+                distance = np.abs(offset)
+                if kind == PEAK:
+                    added += amount * peak_share(
+                        distance, table[at, col.INNER], table[at, col.OUTER], table[at, col.STEEPNESS]
+                    )
+                elif kind == WALL:
+                    added += amount * total * on_wall(distance, table[at, col.INNER], table[at, col.OUTER])
+                elif tables:
+                    added += amount * table_resistance(
+                        rows, index[at, col.TABLE_START], index[at, col.TABLE_END], distance
+                    )
+        return added
+
+    return walls
+
+
+def _softened(has: Features) -> Callable[..., Any]:
+    """Return a function that updates a node with a breakout, and returns the remaining spring and limit."""
+    flat, embeds = has.flat, has.embeds
+    dot = vectors.PLANES[2 if has.flat else 3].dot
+
+    def soften(at: int, p: Point, across: Array, deep: float, table: Array, held: Array) -> tuple[float, float]:
+        x, y, z = p[0] - held[0, at], p[1] - held[1, at], p[2] - held[2, at]
+        distance = dot(across, (y, z)) if flat else dot(across, (x, y, z))
+        law: Numbers = (table[at, 0], table[at, 1], table[at, 2], table[at, 3], table[at, 4])
+        held[3, at], held[4, at] = reached(
+            (held[3, at], held[4, at]), distance, deep * table[at, 5] if embeds else 0.0, law
+        )
+        share, _, softer = shares(held[3, at], held[4, at], law)
+        return softer, share
+
+    return soften
+
+
+def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
     """Return the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
-    friction, turned, slides = "friction" in has, "turned" in has, "slides" in has
-    lateral, nodal = "lateral" in has, "nodal" in has
-    turns, moves, damps = "turns" in has, "velocities" in has, "nodal_damping" in has
-    elliptic, trench, breakout, embeds = "elliptic" in has, "trench" in has, "breakout" in has, "embeds" in has
+    friction, turned, lateral, nodal, slides = has.friction, has.turned, has.lateral, has.nodal, has.slides
+    turns, moves = has.turns, has.velocities
+    flat, elliptic, trench, breakout, damps = has.flat, has.elliptic, has.trench, has.breakout, has.nodal_damping
+    plane = vectors.PLANES[2 if has.flat else 3]
+    project, default, cross, dot, turn = plane.project, plane.default, plane.across, plane.dot, plane.turned
+    blend, added, reacts = plane.blend, plane.added, plane.reaction
     normal_law = one_of(wrap, laws, col.NODE_LAW)
+    walls, soften = wrap(_trench_limit(has)), wrap(_softened(has))
+    in_plane, read, _ = _components(wrap, has)
+    nothing = (0.0, 0.0) if has.flat else (0.0, 0.0, 0.0)
 
     def loop(
         begin: Index, end: Index, tables: Array, points: Array, speed: Array, laid: Array, work: Array, part: Array,
@@ -197,12 +275,12 @@ def nodes_loop(wrap: Wrap, has: frozenset[str], laws: tuple[tuple[Callable[..., 
                 past_sticks, past_sticking = sticks, sticking
             for i in range(begin, end):
                 total = 0.0
-                direction = push = sideward = NOWHERE
+                direction = push = sideward = nothing
                 for at in range(first[i], behind[i]):
                     e = elements[at]
                     total += force[step, e] * half[e]
                     if lateral:
-                        push = vectors.added(push, point_of(sideways, step, e))
+                        push = added(push, read(sideways, step, e))
                 if nodal and index[i, col.NODE_KIND] != NOTHING:
                     z = 0.0 - gap[step, i]
                     if z > table[i, col.NODE_ONSET]:
@@ -220,19 +298,21 @@ def nodes_loop(wrap: Wrap, has: frozenset[str], laws: tuple[tuple[Callable[..., 
 
                 if slides:
                     f1 = f2 = 0.0
-                    along = across = NOWHERE
+                    along = across = nothing
                     slides_here = friction and index[i, col.ACTIVE] > 0 and total > 0.0
-                    if slides_here or (lateral and push != NOWHERE):  # else there is no force along any direction
+                    if slides_here or (lateral and push != nothing):  # else there is no force along any direction
                         for at in range(first[i], behind[i]):
                             e = elements[at]
-                            unit = point_of(tangent, step, e)
+                            unit = read(tangent, step, e)
                             if math.isnan(unit[0]):
-                                unit = direction_of(points, step, ends[e, col.FIRST], ends[e, col.SECOND])
-                            direction = vectors.blend(direction, unit, 1.0, senses[at] if turns else 1.0)
-                        along = along_seabed(direction, n)
+                                unit = in_plane(direction_of(points, step, ends[e, col.FIRST], ends[e, col.SECOND]))
+                            direction = blend(direction, unit, 1.0, senses[at] if turns else 1.0)
+                        along, exists = project(direction, n)
+                        if not exists:
+                            along = default(n)
                         if friction and turned and not math.isnan(table[i, col.COSINE]):
-                            along = vectors.turned(table[i, col.COSINE], table[i, col.SINE], n)
-                        across = vectors.across(along, n)
+                            along = turn(table[i, col.COSINE], table[i, col.SINE], n)
+                        across = cross(along, n)
                     if friction:
                         state_1: Index = np.int64(index[i, col.ACTIVE]) - 1
                         state_2 = state_1
@@ -246,8 +326,8 @@ def nodes_loop(wrap: Wrap, has: frozenset[str], laws: tuple[tuple[Callable[..., 
                                 stick[1] if held else p[1],
                                 stick[2] if held else p[2],
                             )
-                            away = (p[0] - stick[0], p[1] - stick[1], p[2] - stick[2])
-                            e1, e2 = vectors.dot(along, away), vectors.dot(across, away)
+                            away = in_plane((p[0] - stick[0], p[1] - stick[1], p[2] - stick[2]))
+                            e1, e2 = dot(along, away), dot(across, away)
                             k1 = table[i, col.CONSTANT_1] + table[i, col.RISING_1] * total
                             k2 = table[i, col.CONSTANT_2] + table[i, col.RISING_2] * total
                             t1, t2, l1, l2 = k1 * e1, k2 * e2, table[i, col.MU_1] * total, table[i, col.MU_2] * total
@@ -257,22 +337,25 @@ def nodes_loop(wrap: Wrap, has: frozenset[str], laws: tuple[tuple[Callable[..., 
                                     for axis in range(3):
                                         moved_so_far[axis, index[i, col.BREAKS_OUT]] = p[axis]
                                 deep = 0.0
-                                if embeds:
-                                    for at in range(first[i], behind[i]):
-                                        deep += ratio[step, elements[at]]
-                                soft, share = softened(index[i, col.BREAKS_OUT], p, across, deep, breaks, moved_so_far)
+                                for at in range(first[i], behind[i]):
+                                    deep += ratio[step, elements[at]]
+                                soft, share = soften(index[i, col.BREAKS_OUT], p, across, deep, breaks, moved_so_far)
                                 k2, l2 = k2 * soft, l2 * share
                                 t2 = k2 * e2
                             curved = elliptic and index[i, col.ELLIPTIC] > 0
                             f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             if trench and (slip_2 or (curved and slip_1)):  # sticking without a trench: sticking in it
-                                l2 = l2 + trench_limit(i, total, p, across, t2 > 0.0, (trenches, laid))
+                                l2 = l2 + walls(i, total, p, across, t2 > 0.0, (trenches, laid))
                                 f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             m1 = m2 = 0.0
                             if slip_1 or slip_2:
                                 m1, m2 = slip_distance(slip_1, e1, f1, k1), slip_distance(slip_2, e2, f2, k2)
-                            moved = vectors.blend(along, across, m1, m2)
-                            sticks[0, i], sticks[1, i], sticks[2, i] = vectors.added(stick, moved)
+                            moved = blend(along, across, m1, m2)
+                            if flat:
+                                stick = (stick[0], stick[1] + moved[0], stick[2] + moved[1])
+                            else:
+                                stick = (stick[0] + moved[0], stick[1] + moved[1], stick[2] + moved[2])
+                            sticks[0, i], sticks[1, i], sticks[2, i] = stick
                             f1, f2, state_1, state_2 = 0.0 - f1, 0.0 - f2, 1 + slip_1, 1 + slip_2
                         else:
                             sticks[0, i] = sticks[1, i] = sticks[2, i] = np.nan
@@ -281,13 +364,12 @@ def nodes_loop(wrap: Wrap, has: frozenset[str], laws: tuple[tuple[Callable[..., 
                                 moved_so_far[3:, index[i, col.BREAKS_OUT]] = 0.0
                         sticking[0, i], sticking[1, i] = state_1, state_2
                         slipping[step, i, 0], slipping[step, i, 1] = state_1, state_2
-                        sideward = vectors.blend(along, across, f1, f2)
+                        sideward = blend(along, across, f1, f2)
                     if lateral:
-                        sideward = vectors.added(sideward, push)
-                        f1, f2 = f1 + vectors.dot(along, push), f2 + vectors.dot(across, push)
+                        sideward, f1, f2 = added(sideward, push), f1 + dot(along, push), f2 + dot(across, push)
                     friction_force[step, i, 0], friction_force[step, i, 1] = f1, f2
 
-                total_force = vectors.reaction(total, n, sideward)
+                total_force = reacts(total, n, sideward)
                 reaction[step, i, 0], reaction[step, i, 1], reaction[step, i, 2] = total_force
                 if not math.isfinite(total_force[0] + total_force[1] + total_force[2]):
                     wrong += not math.isnan(points[step, i, 0])

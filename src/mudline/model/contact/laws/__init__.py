@@ -318,6 +318,11 @@ def law_named(name: str) -> Law:
     return entry
 
 
+def is_normal(name: str) -> bool:
+    """Return True if the law of a name is a normal law."""
+    return isinstance(law_named(name), NormalLaw)
+
+
 def register(law: Law) -> NormalLaw:
     """Add a normal law of elements or nodes, and return it.
 

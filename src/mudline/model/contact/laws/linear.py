@@ -72,13 +72,12 @@ def steepest_slopes(curve: ForceCurve) -> FloatArray:
     return slopes
 
 
-def steepest_slope(curve: ForceCurve, slopes: FloatArray, ratio: FloatArray) -> FloatArray:
+def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
     """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0.
 
-    `slopes` are its `steepest_slopes`. At a point of the curve the segment to its right is not included; an infinite
-    ratio includes the whole curve.
+    At a point of the curve the segment to its right is not included; an infinite ratio includes the whole curve.
     """
-    return slopes[np.searchsorted(curve.ratios[1:-1], ratio)]
+    return steepest_slopes(curve)[np.searchsorted(curve.ratios[1:-1], ratio)]
 
 
 def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value, Value]:
@@ -86,7 +85,7 @@ def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value,
     return stiffness * z, stiffness
 
 
-def own_stiffness(z: Value, diameter: Value, stiffness: Value, *others: Value) -> Value:
+def linear_steepest(z: Value, diameter: Value, stiffness: Value) -> Value:
     """Return K."""
     return stiffness
 
@@ -109,6 +108,11 @@ def smoothed_reaction(
     in_zone = np.maximum(stiffness, into) * drop * (share * (1.5 - scale)) * np.minimum(stiffness, into)
     inside = z < half_width + shift
     return where(inside, in_zone, stiffness * (z - shift)), where(inside, stiffness * drop * share, stiffness)
+
+
+def smoothed_steepest(z: Value, diameter: Value, stiffness: Value, half_width: Value, one_sided: Value) -> Value:
+    """Return K."""
+    return stiffness
 
 
 def zone_onset(stiffness: Value, half_width: Value, one_sided: Value) -> Value:
@@ -163,7 +167,7 @@ LINEAR = NormalLaw(
     acts_on="elements",
     parameters=(_STIFFNESS,),
     reaction=linear_reaction,
-    steepest=own_stiffness,
+    steepest=linear_steepest,
     plan=_AT_MEAN_DEPTH,
     equation="F = K z",
     source="definition of STIFFNESS=",
@@ -174,7 +178,7 @@ SMOOTHED = NormalLaw(
     acts_on="elements",
     parameters=(_STIFFNESS, _HALF_WIDTH, _ONE_SIDED),
     reaction=smoothed_reaction,
-    steepest=own_stiffness,
+    steepest=smoothed_steepest,
     onset=zone_onset,
     plan=_AT_MEAN_DEPTH,
     equation="F = K (z + h)^2 / (4 h) in the zone, K z beyond (CENTRED); K z^2 / (4 h), K (z - h) (ONE-SIDED)",
@@ -186,7 +190,7 @@ NODAL = NormalLaw(
     acts_on="nodes",
     parameters=(Parameter("stiffness", "F/L", "force per length of penetration of the node"), _HALF_WIDTH, _ONE_SIDED),
     reaction=smoothed_reaction,
-    steepest=own_stiffness,
+    steepest=smoothed_steepest,
     onset=zone_onset,
     plan=_planned_nodes,
     equation="as `smoothed`, at the node's own penetration",

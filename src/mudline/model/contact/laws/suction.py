@@ -249,17 +249,28 @@ def _crossed(parameters: dict[str, FloatArray]) -> tuple[BoolArray, str]:
     return parameters["first_corner"] > parameters["second_corner"], "its first corner is above its second"
 
 
-def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return |d force / d uplift| on the rise and on the release, and dF_max / dv, per unit length, at velocities v.
-
-    They are F_max / (xc1 Delta_B) and F_max / ((1 - xc2) Delta_B). On the release a structure has a unique equilibrium
-    only if it is stiffer, per unit length.
-    """
+def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return F_max / (xc1 Delta_B) and dF_max / dv per unit length, at the end of the rise, at velocities v."""
     factor = law.force_factor * law.largest_factor
     with np.errstate(all="ignore"):
         force, by_velocity = maximum_force(v, factor, law.force_exponent, law.regularisation)
         uplift = breakout_uplift(v, law.depth_factor, law.depth_exponent, law.regularisation)
-        return force / (law.first_corner * uplift), force / ((1.0 - law.second_corner) * uplift), by_velocity
+        rise: FloatArray = force / (law.first_corner * uplift)
+    return rise, by_velocity
+
+
+def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
+    """Return |d force / d uplift| on the release of suction, per unit length, at steady pull-out velocities > 0 (m,).
+
+    F_max / ((1 - xc2) Delta_B): a structure has a unique equilibrium there only if it is stiffer, per unit length.
+    """
+    with np.errstate(all="ignore"):
+        force, _ = maximum_force(
+            velocity, law.force_factor * law.largest_factor, law.force_exponent, law.regularisation
+        )
+        uplift = breakout_uplift(velocity, law.depth_factor, law.depth_exponent, law.regularisation)
+        slope: FloatArray = force / ((1.0 - law.second_corner) * uplift)
+    return slope
 
 
 def _damping(step: Moving, parameters: dict[str, FloatArray]) -> FloatArray:
@@ -279,7 +290,7 @@ def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[Float
     """Return the rise and the damping at the velocity that makes them largest; infinite if no velocity does."""
     law = SuctionLaw(**parameters)
     if reached.speed is not None:
-        rise, _, damping = (
+        rise, damping = (
             rates if rates.ndim == 1 else np.fmax.reduce(rates, axis=0) for rates in suction_rates(law, reached.speed)
         )
         return rise, damping

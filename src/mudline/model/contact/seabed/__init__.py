@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -85,6 +86,8 @@ class Seabed(ABC):
 class SurfaceSeabed(Seabed):
     """A seabed with an elevation and a gradient at points in a row."""
 
+    chunk: ClassVar[int] = _CHUNK
+
     @abstractmethod
     def surface(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return elevation and its derivatives by Y and Z at `y` (n,) and `z` (n,); elevation is NaN without a seabed.
@@ -96,8 +99,8 @@ class SurfaceSeabed(Seabed):
         """Write gaps and normals, see `Seabed`."""
         rows = points.reshape(-1, 3)
         flat_gap, flat_normal = gap.reshape(-1), normal.reshape(-1, 3)  # views where the arrays allow it, else copies
-        for start in range(0, len(rows), _CHUNK):
-            part = slice(start, start + _CHUNK)
+        for start in range(0, len(rows), self.chunk):
+            part = slice(start, start + self.chunk)
             x, y, z = np.ascontiguousarray(rows[part].T)
             with np.errstate(over="ignore"):  # an elevation that overflows makes an infinite gap
                 level, along_y, along_z = self.surface(y, z)
