@@ -23,7 +23,7 @@ from mudline.model.scene.csv_file import read_external
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.positions import COLUMNS
 
-_MAPPING = re.compile(r"""\s*(\w+)\s*=\s*(?:"([^"]*)"|(.*?))\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
+_MAPPING = re.compile(r"""\s*(\w+)\s*=\s*("[^"]*"|.*?)\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
 """NAME=HEADING up to a comma that is followed by another name: a heading may contain commas."""
 
 _Read = TypeVar("_Read")
@@ -156,7 +156,7 @@ def read_headings(given: Sequence[str]) -> dict[str, str]:
         place = 0
         while place < len(text) or not text:
             match = _MAPPING.match(text, place)
-            if match is None or not (heading := match[2] or match[3]):
+            if match is None or not (heading := _unquoted(match[2])):
                 raise click.UsageError(f'--columns {text!r}: expected NAME=HEADING, as in node=Node,x="X [m]"')
             name, place = match[1].lower(), match.end()
             if name not in COLUMNS:
@@ -166,3 +166,8 @@ def read_headings(given: Sequence[str]) -> dict[str, str]:
                 raise click.UsageError(f"--columns gives {name} twice")
             headings[name] = heading
     return headings
+
+
+def _unquoted(text: str) -> str:
+    quoted = len(text) > 1 and text.startswith('"') and text.endswith('"')
+    return text[1:-1] if quoted else text

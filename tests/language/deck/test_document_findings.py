@@ -148,14 +148,15 @@ def test_comments_find_the_place_that_keyword_text_gives_them() -> None:
 @pytest.mark.parametrize(
     ("path", "document"),
     [
+        ("source", made(source="\ud800")),
         ("preamble[0]", made(preamble=["a\udfff"])),
         ("sections[0].blocks[0].depth", made(section({"keyword": "OCEAN", "depth": "=[\ud800]"}))),
-        ("sections[0].\ufffd", made({"name": "MODEL", "blocks": [], "\ud800": 1})),
+        ("sections[0]", made({"name": "MODEL", "blocks": [], "\ud800": 1})),
     ],
 )
 def test_half_a_surrogate_pair_is_refused(path: str, document: Document) -> None:
     (found,) = refused(document)
-    assert (found.code, found.message.partition(":")[0]) == ("DOC002", path)
+    assert (found.code, found.message.partition(":")[0]) == ("DOC001", path)
 
 
 def test_a_number_of_too_many_digits_is_found() -> None:

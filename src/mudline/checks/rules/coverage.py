@@ -76,7 +76,7 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
         known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for *_, set_ in known], count):
             (before, _, first), (keyword, where, second) = known[earlier], known[later]
-            refined = before == keyword and (within(first, second) or within(second, first))
+            refined = before == keyword and (within(first, second, count) or within(second, first, count))
             if refined or first.open or second.open:
                 continue
             which = first_of("element", scene.element_ids[elements.min()], elements.size)
@@ -378,7 +378,7 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
         first, second = grants[earlier].set_, grants[later].set_
         where = grants[later].where
         place = where._replace(path=(*where.path[:2], "set"))
-        if within(first, second):
+        if within(first, second, len(scene.element_ids)):
             of_set = "this set" if folded(first.name) == folded(second.name) else f"SET={shown(first.name)}"
             message = (
                 f"the earlier definition of {of_set} is overridden by this one for all its elements: put the larger "
@@ -386,7 +386,7 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
             )
             lost = not _alike(scene, grants[earlier], grants[later])
             yield earlier, Problem(SBD008, message, None, Severity.WARNING if lost else None, place)
-        elif not within(second, first) and not _alike(scene, grants[earlier], grants[later]):
+        elif not within(second, first, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
             message = (
                 f"this definition overrides the earlier one of SET={shown(first.name)} for "
                 f"{_counted(scene, elements)}: give each element one definition"
@@ -394,13 +394,17 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
             yield earlier, Problem(SBD008, message, where=place)
 
 
-def within(part: NamedSet, whole: NamedSet) -> bool:
+def within(part: NamedSet, whole: NamedSet, count: int) -> bool:
     """Return True if the elements of one set are all in another one, as far as they are known."""
     if folded(whole.name) in (folded(part.name), folded(ALL)):
         return True
     if part.open or whole.open:
         return False
-    return bool(np.isin(part.elements, whole.elements, assume_unique=True).all())
+    if len(whole.elements) == count:
+        return True
+    return len(part.elements) <= len(whole.elements) and bool(
+        np.isin(part.elements, whole.elements, assume_unique=True).all()
+    )
 
 
 def _counted(scene: Scene, elements: Indices) -> str:

@@ -199,7 +199,25 @@ class NumberRows:
         last = characters[ends] == _LF
         opens = np.flatnonzero(np.concatenate(([True], last[:-1])))
         column = np.arange(len(ends)) - np.repeat(opens, np.diff(opens, append=len(ends)))
-        return cls(characters, sizes, lefts, column) if sizes.all() and column.max() < most else None
+        rows = cls(characters, sizes, lefts, column)
+        if not sizes.all():
+            return rows._cut(ends, opens, most)
+        return None if column.max() >= most else rows
+
+    def _cut(self, ends: _Array, opens: _Array, most: int) -> Self | None:
+        """Return the rows without trailing empty fields; each row begins at one of the fields `opens`.
+
+        `ends` are the places of the commas and LFs among the characters.
+        """
+        filled = np.maximum.reduceat(np.where(self.sizes > 0, self.column, -1), opens)
+        if filled.min() < 0 or filled.max() >= most:
+            return None
+        last = np.repeat(filled, np.diff(opens, append=len(self.column)))
+        kept = self.column <= last
+        characters = self.characters.copy()
+        characters[ends[self.column == last]] = _LF
+        fields = (values[kept] for values in (self.sizes, self.lefts, self.column))
+        return type(self)(np.delete(characters, ends[~kept]), *fields)
 
     def measure(self, columns: Columns) -> None:
         """Widen the columns for the rows."""

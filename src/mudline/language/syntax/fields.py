@@ -118,8 +118,9 @@ def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field],
 
 
 def _field(text: str, start: int, end: int) -> Field:
-    inner = trimmed(text, start, end)
-    return Field(text[inner.start : inner.end], inner.start)
+    written = text[start:end]
+    inner = written.strip(_OUTER)
+    return Field(inner, start + (written.find(inner) if inner else 0))
 
 
 def _opens(text: str, at: int, start: int, *, slashes: bool) -> bool:

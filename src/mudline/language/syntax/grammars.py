@@ -6,9 +6,9 @@ The second level of reading is below: the parser of a keyword's rule, applied to
 from __future__ import annotations
 
 import pickle
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from copy import copy
-from functools import cache
+from functools import cache, lru_cache
 from io import BytesIO
 from pathlib import Path
 from typing import Any, NamedTuple, cast
@@ -104,6 +104,8 @@ def _below(grammar: Grammar, start: str) -> Grammar:
 
 END = "$END"
 ROW = "ROW"
+_FEW = 64
+"""Greatest number of lines of a block whose tree is cached: decks hold blocks of the same few forms."""
 
 
 class Content(NamedTuple):
@@ -143,9 +145,24 @@ def _begin(rule: str) -> InteractiveParser:
 
 def tree_of(rule: str, contents: Sequence[Content]) -> Node | None:
     """Return the tree of a block under its rule if all of its lines fit, else None."""
+    parsed = _parsed if len(contents) <= _FEW else _parsed.__wrapped__
+    tree = parsed(rule, tuple([content.type for content in contents]))
+    return tree and _with_lines(tree, iter(contents))
+
+
+def _with_lines(tree: Node, lines: Iterator[Content]) -> Node:
+    """Return a tree whose leaves are replaced by other lines, in order."""
+    return Tree(
+        tree.data, [_with_lines(child, lines) if type(child) is Tree else next(lines) for child in tree.children]
+    )
+
+
+@lru_cache(1024)
+def _parsed(rule: str, terminals: tuple[str, ...]) -> Node | None:
+    """Return the tree of a sequence of terminals; None if the rule does not fit."""
     state = _begin(rule)
     try:
-        _feed(state, *contents)
+        _feed(state, *map(_placeless, terminals))
         return cast("Node", state.feed_eof())
     except UnexpectedToken:
         return None

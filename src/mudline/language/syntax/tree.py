@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
-from functools import cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 from mudline.basics.short_repr import short_repr
@@ -16,6 +16,9 @@ from mudline.language.syntax.grammars import parser
 from mudline.language.syntax.source import CONTROLS, Source
 
 _BLANKS = re.compile(r"[ \t]+")
+_COMMA = re.compile(r" *, *")
+_REMEMBERED = 100
+"""Greatest length of a line whose name is cached: few lines are longer, and most decks have the same names."""
 
 
 class LeafKind(Enum):
@@ -115,8 +118,13 @@ def matchable(pattern: str) -> str:
 
 def canonical_name(line: str) -> str:
     """Return the name on a `$` or `*` line: upper case, single blanks, no blanks around a comma."""
+    return _known_name(line) if len(line) <= _REMEMBERED else _known_name.__wrapped__(line)
+
+
+@lru_cache(maxsize=1024)
+def _known_name(line: str) -> str:
     name = _BLANKS.sub(" ", line.lstrip(f" \t{CONTROLS}").rstrip(" \t\r\n")[1:].strip(" \t"))
-    return re.sub(r" *, *", ",", name).upper()
+    return _COMMA.sub(",", name).upper()
 
 
 def mark_of(line: str) -> str:
@@ -133,17 +141,22 @@ def parse(source: Source) -> SyntaxTree:
     preamble = section = RawSection(None, "")
     sections: list[RawSection] = []
     leaves = section.leaves
+    new = tuple.__new__  # a third of the time of the classes: a deck has a leaf for nearly every line
     for line in _lines().finditer(source.unified):
-        kind = LeafKind(line.lastgroup)
-        leaf = Leaf(kind, Span(*line.span()))
-        if kind is LeafKind.SECTION:
+        kind = _KINDS[line.lastgroup]
+        leaf = new(Leaf, (kind, new(Span, line.span())))
+        if kind is _SECTION:
             section = RawSection(leaf, canonical_name(line[0]))
             sections.append(section)
             leaves = section.leaves
-        elif kind is LeafKind.KEYWORD:
+        elif kind is _KEYWORD:
             block = RawBlock(leaf, canonical_name(line[0]))
             section.blocks.append(block)
             leaves = block.leaves
         else:
             leaves.append(leaf)
     return SyntaxTree(source, preamble, tuple(sections))
+
+
+_KINDS: dict[str | None, LeafKind] = {kind.value: kind for kind in LeafKind}
+_SECTION, _KEYWORD = LeafKind.SECTION, LeafKind.KEYWORD

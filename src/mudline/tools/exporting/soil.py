@@ -19,7 +19,7 @@ from mudline.model.scene.assignments import nodal_stiffness, soil_parameters
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.laws import Extension, SeabedResistance
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.resolved import ResolvedDeck
+from mudline.model.scene.resolved import LawArrays, ResolvedDeck
 from mudline.model.scene.weights import pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome, short_name
 
@@ -109,7 +109,8 @@ def soils_of(scene: ResolvedDeck, units: SiFactors) -> tuple[list[ExportSoil], I
     own = (scene.laws.of_element, scene.law, scene.resistance.of_element)
     keys = np.column_stack([*own, *blocks, weight, size, per_node, friction])
     _, firsts, of_element = np.unique(np.round(keys, 9), axis=0, return_index=True, return_inverse=True)
-    soils = [_soil(scene, units, int(at), float(weight[at]), friction[at].tolist()) for at in firsts]
+    arrays = scene.law_arrays()
+    soils = [_soil(scene, units, arrays, int(at), float(weight[at]), friction[at].tolist()) for at in firsts]
     return soils, of_element.ravel()
 
 
@@ -137,7 +138,9 @@ def _friction(scene: ResolvedDeck, weight: Floats) -> Floats:
     return np.column_stack([coefficient, spring])
 
 
-def _soil(scene: ResolvedDeck, units: SiFactors, at: int, weight: float, friction: list[float]) -> ExportSoil:
+def _soil(
+    scene: ResolvedDeck, units: SiFactors, arrays: LawArrays, at: int, weight: float, friction: list[float]
+) -> ExportSoil:
     kind, diameter = LawKind(int(scene.law[at])), float(np.nan_to_num(scene.diameter[at]))
     parameters = {}
     if kind is LawKind.SOIL:
@@ -145,7 +148,7 @@ def _soil(scene: ResolvedDeck, units: SiFactors, at: int, weight: float, frictio
         parameters = {name: float(values[0]) for name, values in named.items()}
         stiffness, tangent = _of_soil(parameters, weight, diameter)
     else:
-        stiffness, tangent = _stiffness(scene, at, kind, weight)
+        stiffness, tangent = _stiffness(scene, arrays, at, kind, weight)
 
     def place_in(table: Extension | SeabedResistance | None) -> Where | None:
         own = -1 if table is None else int(table.of_element[at])
@@ -171,9 +174,9 @@ def _soil(scene: ResolvedDeck, units: SiFactors, at: int, weight: float, frictio
     )
 
 
-def _stiffness(scene: ResolvedDeck, at: int, kind: LawKind, weight: float) -> tuple[float, float]:
+def _stiffness(scene: ResolvedDeck, arrays: LawArrays, at: int, kind: LawKind, weight: float) -> tuple[float, float]:
     """Return secant and tangent at the static penetration, in the deck's units."""
-    diameter, stiffness, arrays = float(np.nan_to_num(scene.diameter[at])), 0.0, scene.law_arrays()
+    diameter, stiffness = float(np.nan_to_num(scene.diameter[at])), 0.0
     if kind is LawKind.LINEAR:
         stiffness = float(arrays.linear_stiffness[at])
     elif kind is LawKind.RIGID and diameter:

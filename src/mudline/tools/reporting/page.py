@@ -66,7 +66,7 @@ def page(report: PageContent, look: Look) -> str:
         figures=figure_table(figures, unit_names(content["units"])) if figures and not figures["missing"] else None,
         head=_css_text(", ".join(filter(None, [document["number"], revision, content["deck"]]))),
         hash=_css_text(f"SHA-256 {content['sha256'][:_SHORT_HASH]}"),
-        study_texts=filter(None, study_texts),
+        study_texts=[text for text in study_texts if text],
         findings=findings,
         infos=_groups(report, "reported", lambda severity: severity == "info"),
         hidden=hidden,

@@ -15,9 +15,11 @@ from mudline.language.deck.document import decoded, from_document, to_document
 from mudline.language.deck.faults import refusal
 from mudline.language.deck.model import Deck, Range
 from mudline.language.diagnostics import DeckError
-from mudline.language.keywords.faults import DocumentPath
+from mudline.language.keywords.faults import DocumentPath, path_text
 from mudline.language.keywords.table import Table
 from mudline.language.syntax.source import Source
+
+_HALF_PAIR = re.compile(r"[\ud800-\udfff]")
 
 
 def to_json(deck: Deck) -> str:
@@ -79,7 +81,10 @@ def read(data: bytes, file: str) -> Deck:
         raise refusal(file, str(error)) from error
     except ValueError as error:  # what is left is that Python reads no whole number of so many digits
         raise _too_long(text, file) from error
-    return from_document(document, file, JsonPlaces(text).locate)
+    places = JsonPlaces(text)
+    if "\\ud" in text or "\\uD" in text:
+        _refuse_half_pairs(document, file, places)
+    return from_document(document, file, places.locate)
 
 
 class _UnfitError(ValueError):
@@ -95,6 +100,20 @@ def _too_long(text: str, file: str) -> DeckError:
     start, end = longest.span() if longest else (0, 0)
     place = Range(*Source("", text).position(start), *Source("", text).position(end))
     return refusal(file, f"a whole number of {end - start} digits is too large", place)
+
+
+def _refuse_half_pairs(document: object, file: str, places: JsonPlaces) -> None:
+    """Refuse escapes that are half of a surrogate pair, which no file can hold."""
+    stack: list[tuple[DocumentPath, object]] = [((), document)]
+    while stack:
+        path, value = stack.pop()
+        if isinstance(value, dict):
+            stack += [((*path, key), item) for key, item in value.items()]
+            value = "".join(value)
+        elif isinstance(value, list):
+            stack += [((*path, index), item) for index, item in enumerate(value)]
+        if isinstance(value, str) and not value.isascii() and _HALF_PAIR.search(value):
+            raise refusal(file, f"{path_text(path)}: \\uD800 to \\uDFFF are valid in pairs only", places.locate(path))
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import repeat
 from tempfile import TemporaryFile
 from typing import IO, Any
 
@@ -74,7 +73,11 @@ class _Array:
     def pieces(self, steps: int) -> Iterator[Values]:
         """Yield all values of so many steps, in order, flat."""
         if self._file is None:
-            yield from repeat(self._spelled(self._steady.ravel()), steps)
+            row = self._steady.ravel()
+            together = min(steps, max(1, _PACKED // max(row.size, 1)))
+            block = self._spelled(np.tile(row, together))
+            for first in range(0, steps, together):
+                yield block[: row.size * min(together, steps - first)]
             return
         self._file.seek(0)
         while data := self._file.read(_PACKED * self._kept.itemsize):
