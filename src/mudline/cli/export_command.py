@@ -39,8 +39,8 @@ def command(
 ) -> int:
     """Export seabed, line and soil of a deck as the input of another program, and list what does not carry over."""
     path = Path(output)
-    if output == STDIN:
-        raise click.UsageError("-o -: a model may need several files; give the name of a file")
+    if output == STDIN or not path.name:
+        raise click.UsageError(f"-o {output}: a model may need several files; give the name of a file")
     read = deck.load()
     files, report, notes = export(read, to=target, name=path.name, rest_shape=rest_shape)
     for note in notes:

@@ -152,6 +152,10 @@ def test_comments_find_the_place_that_keyword_text_gives_them() -> None:
         ("preamble[0]", made(preamble=["a\udfff"])),
         ("sections[0].blocks[0].depth", made(section({"keyword": "OCEAN", "depth": "=[\ud800]"}))),
         ("sections[0]", made({"name": "MODEL", "blocks": [], "\ud800": 1})),
+        (
+            "sections[0].blocks[0].entries[0].nodes[0][1]",
+            made(section({"keyword": "NODE", "entries": [{"nodes": [[1, "=[\ud800]", 0.0]]}]})),
+        ),
     ],
 )
 def test_half_a_surrogate_pair_is_refused(path: str, document: Document) -> None:
