@@ -134,7 +134,7 @@ _CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
 _PRINTED = (TEXT, "concise")
 
 State = dict[str, tuple[int, ...]]
-"""What changes with each file."""
+"""Properties of files that a change of their content changes, by file."""
 
 
 def refuse(writing: Mapping[str, bool], paths: Sequence[str], form: str) -> None:

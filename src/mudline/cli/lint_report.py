@@ -48,7 +48,7 @@ def outputs(given: Sequence[str]) -> tuple[str, list[tuple[str, Path]]]:
 
 
 class LintOptions(NamedTuple):
-    """What a run does with its findings; `recording` writes them into the file `baseline`, which else hides them."""
+    """Options of a run; `recording` writes its findings into the file `baseline`, which else hides them."""
 
     fix: bool
     diff: bool
