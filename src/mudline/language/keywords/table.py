@@ -272,7 +272,10 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
 
     Empty fields behind the last non-empty one, which trailing commas leave, are dropped.
     """
-    fewest = fewest_of(columns)
+    fewest, width = fewest_of(columns), raw.values.shape[1]
+    if not raw.words and fewest <= width <= len(columns) and (raw.lengths == width).all():
+        table = Table(raw.values, raw.lengths, columns=columns)
+        return table, _not_whole(table)
     faults: dict[tuple[int, int], str] = {}
     words: dict[tuple[int, int], Equation | Label | None] = {}
     lengths = np.minimum(raw.lengths, len(columns))

@@ -144,6 +144,9 @@ def _made(context: Context, given: SceneCurve) -> SceneCurve:
 
 def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
     """Return indices of points at the ratio of an earlier point: those with another force, and exact repeats."""
+    if np.count_nonzero(points[1:, 0] > points[:-1, 0]) == len(points) - 1:  # sorted, as nearly all are
+        none: Indices = np.zeros(0, np.intp)
+        return none, none
     order = np.argsort(points[:, 0], kind="stable")
     ratios, forces = points[order].T
     begins: Mask = np.append(True, ratios[1:] != ratios[:-1])[: len(ratios)]
