@@ -89,7 +89,7 @@ ENTRY = '{"path": "a", "code": "REF003", "content": "", "count": 1}'
         ('{"format": "mudline-baseline/1", "findings": [3]}', "must have the keys"),
         (f'{{"format": "mudline-baseline/1", "findings": [{ENTRY.replace("1}", "0}")}]}}', "whole number"),
         (f'{{"format": "mudline-baseline/1", "findings": [{ENTRY.replace("1}", "true}")}]}}', "whole number"),
-        (f'{{"format": "mudline-baseline/1", "findings": [{ENTRY.replace(chr(34) * 2, "1")}]}}', "which are texts"),
+        (f'{{"format": "mudline-baseline/1", "findings": [{ENTRY.replace(chr(34) * 2, "1")}]}}', "must be texts"),
     ],
 )
 def test_a_file_that_is_none_is_refused_with_the_reason(tmp_path: Path, text: str, reason: str) -> None:

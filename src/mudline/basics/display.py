@@ -76,6 +76,7 @@ class DisplayTable:
         more: sentence on rows that are left out.
         anchor, row_anchor: anchors of the table and, before their numbers, of its rows on a page.
         few: number of rows on a page before its appendix, which has all.
+        longest: characters of a text on a page, behind which it is cut.
     """
 
     title: str
@@ -86,6 +87,7 @@ class DisplayTable:
     anchor: str = ""
     row_anchor: str = ""
     few: int = 8
+    longest: int = 80
 
     def cells(self) -> list[list[Cell]]:
         """Return the cells, row by row."""

@@ -316,9 +316,11 @@ def read_baseline(path: Path) -> Baseline:
 
 
 def _entry(finding: object, number: int) -> tuple[BaselineEntry, int]:
-    match finding:
-        case {"path": str(path), "code": str(code), "content": str(content), "count": int(count), **others}:
-            if not others and not isinstance(count, bool) and count > 0:
-                return BaselineEntry(path, code, content), count
-    keys = "the keys path, code and content, which are texts, and count, a whole number from 1"
-    raise BaselineError(f"findings[{number}] must have {keys}, and no others")
+    if not isinstance(finding, dict) or finding.keys() != {"code", "content", "count", "path"}:
+        raise BaselineError(f"findings[{number}] must have the keys code, content, count, path, and no others")
+    path, code, content, count = (finding[key] for key in ("path", "code", "content", "count"))
+    if not (isinstance(path, str) and isinstance(code, str) and isinstance(content, str)):
+        raise BaselineError(f"findings[{number}]: path, code and content must be texts")
+    if not isinstance(count, int) or isinstance(count, bool) or count < 1:
+        raise BaselineError(f"findings[{number}]: count must be a whole number from 1")
+    return BaselineEntry(path, code, content), count

@@ -147,8 +147,10 @@ def report_on(
         if stage["active"] and "(inferred)" in stage["why"]:
             head["inferred"].append({"keyword": "", "fields": [stage["stage"]], "inferred": stage["why"], "blocks": 1})
     if "verdict" in requested:
-        contact = sections.get("contact")
-        head["figures"] = _figures(*((contact, "") if contact else _section("contact", content, missing)))
+        contact, why = sections.get("contact"), ""
+        if contact is None:
+            contact, why = _section("contact", content, missing)
+        head["figures"] = _figures(contact, why)
     content.json = _without_folders(head, given)
     return content
 

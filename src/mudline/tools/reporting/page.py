@@ -31,7 +31,7 @@ from mudline.model.results.plots.curves import curves_figure
 from mudline.model.results.plots.style import save
 from mudline.model.scene.curves import OF_SEABED
 from mudline.tools.reporting.content import Look, LookError, PageContent
-from mudline.tools.reporting.tables import figure_table, four_digits, on_page, page_tables
+from mudline.tools.reporting.tables import LONGEST, figure_table, four_digits, on_page, page_tables
 from mudline.tools.touchdown_study.screen import description, sentences
 
 MOST_FINDINGS = 500
@@ -39,8 +39,8 @@ _FEW_FINDINGS, _FEW_INFERRED = 6, 20
 """Findings and deductions before the appendix, which has all."""
 _MOST_RULES = 16
 """Rules behind many findings that a page lists."""
-_LONGEST, _LONGEST_LINE = 600, 160
-"""Characters of a text, and of a line of the deck, that a page shows."""
+_LONGEST_LINE = 160
+"""Characters of a line of the deck that a page shows."""
 _AROUND = 1
 """Lines of the deck shown above and below that of a finding."""
 
@@ -118,8 +118,8 @@ def _finalized(value: object) -> object:
     return visible(value) if type(value) is str else "" if value is None else value
 
 
-def _number(value: object) -> str:
-    return four_digits(value) if isinstance(value, float) else "" if value is None else cut(str(value), _LONGEST)
+def _number(value: object, longest: int) -> str:
+    return four_digits(value) if isinstance(value, float) else "" if value is None else cut(str(value), longest)
 
 
 _LOGOS = {".svg": ("image/svg+xml", (b"<",)), ".png": ("image/png", (b"\x89PNG",))}
@@ -157,7 +157,7 @@ def _groups(
     rows = [
         {
             "number": number,
-            "found": finding | {"message": cut(finding["message"], _LONGEST)},
+            "found": finding | {"message": cut(finding["message"], LONGEST)},
             "lines": _lines(report, finding["line"]),
         }
         for number, finding in enumerate(findings, 1)
@@ -180,7 +180,7 @@ def _by_rule(report: PageContent, groups: Sequence[tuple[str, Sequence[Shown]]])
         number("findings", lambda row: len(row[2])),
         text("lines", lambda row: ", ".join(map(str, row[2][:_FEW])) + (" ..." if len(row[2]) > _FEW else "")),
     )
-    return on_page(DisplayTable("By rule", columns, lines), _MOST_RULES)
+    return on_page(DisplayTable("By rule", columns, lines), _MOST_RULES, LONGEST)
 
 
 _FEW = 4

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any
 
 from mudline.basics.display import DisplayTable, number, text
@@ -30,14 +31,14 @@ MOST_CURVES = 50
 _FEW_INPUTS = 16
 """Inputs before the appendix, which has all."""
 _MOST_TOUCHDOWNS = 5
-LONGEST_NAME = 80
-"""Characters of a name in a caption."""
+LONGEST, LONGEST_NAME = 600, 80
+"""Characters of a text, and of a name, in a table."""
 _ALL = "the JSON of this report has all"
 
 
-def on_page(table: DisplayTable, most: int = SHOWN_ROWS) -> DisplayTable:
-    """Return a table with at most `most` rows, and without empty columns."""
-    return table.filled().first(most, advice=_ALL)
+def on_page(table: DisplayTable, most: int = SHOWN_ROWS, longest: int = LONGEST_NAME) -> DisplayTable:
+    """Return a table with at most `most` rows, and without empty columns; longer texts are cut."""
+    return replace(table.filled().first(most, advice=_ALL), longest=longest)
 
 
 def page_tables(report: PageContent) -> tuple[dict[str, list[DisplayTable]], dict[str, list[DisplayTable]]]:
@@ -56,7 +57,9 @@ def page_tables(report: PageContent) -> tuple[dict[str, list[DisplayTable]], dic
         if long := [table for table in each if len(table.rows) > table.few]:
             details[name] = [*long, *details.get(name, ())]
     if (study := report.study) is not None:
-        tables["study"] = [on_page(table) for part in study.parts if (table := STUDY_TABLES[part](study))]
+        tables["study"] = [
+            on_page(table, longest=LONGEST) for part in study.parts if (table := STUDY_TABLES[part](study))
+        ]
     return tables, details
 
 
@@ -98,7 +101,7 @@ def _inputs(content: dict[str, Any], sheet: Sheet | None, deck: str) -> Iterator
         text("line", lambda row: str(row["line"]) if row["file"] == deck else f"{row['line']} of {row['file']}"),
     )
     title = "Water, conditions, loads, vessels and times"
-    yield on_page(DisplayTable(title, columns, content["inputs"], few=_FEW_INPUTS), MOST_CURVES)
+    yield on_page(DisplayTable(title, columns, content["inputs"], few=_FEW_INPUTS), MOST_CURVES, LONGEST)
     for table in () if sheet is None else sheet_tables(sheet):
         yield on_page(table, 2 * SHOWN_ROWS)
 
@@ -130,15 +133,15 @@ _FIGURES = (text("what", 0), number("value", 1))
 
 def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
     columns = (
-        text("law", "law"),
-        text("set", "set"),
+        text("law", lambda row: cut(row["law"], LONGEST_NAME)),
+        text("set", lambda row: cut(row["set"], LONGEST_NAME)),
         number("elements", elements_of),
         text("values", "words"),
         text("deck line", lambda row: f"line {row['line']} of {row['file']}"),
     )
     note = OPEN if any(row["open"] for row in content["laws"]) else ""
     laws = DisplayTable("Laws and resistance by set", columns, content["laws"], note, row_anchor="law")
-    yield on_page(laws, MOST_CURVES)
+    yield on_page(laws, MOST_CURVES, LONGEST)
 
 
 def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable]:
@@ -197,7 +200,7 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable
     yield on_page(DisplayTable("Touchdown", columns, content["lines"], _weight_note(content)))
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
     warnings = content["warnings"][:SHOWN_ROWS]
-    yield on_page(DisplayTable("Warnings about these results", columns, warnings))
+    yield on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
 
 
 def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
@@ -213,4 +216,4 @@ def _plan(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
     stages = content["stages"]
     columns = (text("stage", "stage"), text("in or out", lambda row: "in" if row["active"] else "left out"))
     table = DisplayTable(f"Stages of the evaluation, {content['steps']}", [*columns, text("why", "why")], stages)
-    yield on_page(table, len(stages))
+    yield on_page(table, len(stages), LONGEST)
