@@ -8,6 +8,8 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any, Literal, NamedTuple
 
+from mudline.basics.display import Cell, DisplayColumn, Value
+
 RESULT_FORMAT = "mudline-result/2"
 """Name and version of the format of result files."""
 
@@ -56,6 +58,7 @@ class Quantity(NamedTuple):
         name: name of the column, the array and the key.
         meaning: text for the documentation, in Markdown.
         unit: a field of `UnitNames`; "" for none.
+        heading: heading in a table for people; the name where it is "".
         label: label of a plot axis; the name where it is "".
         names: texts of a column whose values are indices; the last, None, stands for -1.
         vector: True if a value has three components.
@@ -65,6 +68,7 @@ class Quantity(NamedTuple):
     name: str
     meaning: str
     unit: str = ""
+    heading: str = ""
     label: str = ""
     names: Names = ()
     vector: bool = False
@@ -74,6 +78,20 @@ class Quantity(NamedTuple):
         """Return the name of the unit in a system of units; "" for none."""
         name: str = getattr(unit_names(units), self.unit) if self.unit else ""
         return name
+
+    def column(
+        self,
+        units: str,
+        value: Value | None = None,
+        *,
+        left: bool = False,
+        optional: bool = False,
+        missing: Cell = None,
+    ) -> DisplayColumn:
+        """Return the column of a table for people, with the cells of `value`; without it those of its name."""
+        source = self.name if value is None else value
+        unit = self.unit_name(units)
+        return DisplayColumn(self.heading or self.name, source, unit, left=left, optional=optional, missing=missing)
 
     def axis(self, units: str) -> str:
         """Return the label of an axis with the unit in brackets."""
@@ -135,14 +153,20 @@ NODES = _by_name(
     Quantity("normal", "normal of the seabed: x, y, z; `[null, null, null]` where there is no seabed", vector=True),
     Quantity("reaction", "total force of the seabed on the node: x, y, z", "force", vector=True),
     Quantity("normal_force", "the part along the normal, negative where it pulls", "force"),
-    Quantity("axial_force", "seabed reaction on the pipe along the line: friction; 0.0 without it", "force"),
+    Quantity(
+        "axial_force",
+        "seabed reaction on the pipe along the line: friction; 0.0 without it",
+        "force",
+        "axial\nforce",
+    ),
     Quantity(
         "lateral_force",
         "seabed reaction on the pipe across the line: friction and lateral springs; 0.0 without them",
         "force",
+        "lateral\nforce",
     ),
-    Quantity("axial_state", "`open`, `stick` or `slip`; `null` without a friction law", names=SLIDING),
-    Quantity("lateral_state", "`open`, `stick` or `slip`; `null` without a friction law", names=SLIDING),
+    Quantity("axial_state", "`open`, `stick` or `slip`; `null` without a friction law", "", "axial", names=SLIDING),
+    Quantity("lateral_state", "`open`, `stick` or `slip`; `null` without a friction law", "", "lateral", names=SLIDING),
     Quantity(
         "line",
         "the number of its line; of the first one at a junction; 0 without elements",
@@ -157,30 +181,61 @@ LINES = _by_name(
     Quantity("last_element", "elements at its ends", over_steps=False),
     Quantity("length", "all of it", "length", over_steps=False),
     Quantity("touchdown_points", "how often it comes down on the seabed or leaves it"),
-    Quantity("first_touchdown", "arc length of the first of these points", "length", label="touchdown point"),
+    Quantity(
+        "first_touchdown", "arc length of the first of these points", "length", "touchdown\nat", "touchdown point"
+    ),
     Quantity("first_touchdown_x", "its coordinates; X is up", "length"),
     Quantity("first_touchdown_y", "its coordinates; X is up", "length"),
     Quantity("first_touchdown_z", "its coordinates; X is up", "length"),
-    Quantity("last_touchdown", "arc length of the last of these points", "length"),
+    Quantity("last_touchdown", "arc length of the last of these points", "length", label="last touchdown point"),
     Quantity("last_touchdown_x", "its coordinates; X is up", "length"),
     Quantity("last_touchdown_y", "its coordinates; X is up", "length"),
     Quantity("last_touchdown_z", "its coordinates; X is up", "length"),
-    Quantity("contact_length", "length below the seabed", "length", label="length in contact"),
-    Quantity("largest_force", "largest push of the seabed on an element, per unit length", "line_force"),
-    Quantity("largest_force_element", "the element"),
+    Quantity("contact_length", "length below the seabed", "length", "length in\ncontact", "length in contact"),
+    Quantity(
+        "largest_force",
+        "largest push of the seabed on an element, per unit length",
+        "line_force",
+        "largest\nforce",
+        "largest force",
+    ),
+    Quantity("largest_force_element", "the element", "", "element"),
     Quantity("largest_force_arc_length", "arc length of its middle", "length"),
-    Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force"),
-    Quantity("largest_uplift_element", "the element"),
+    Quantity(
+        "largest_uplift",
+        "largest pull, negative, by suction or a curve",
+        "line_force",
+        "largest\nuplift",
+        "uplift, negative",
+    ),
+    Quantity("largest_uplift_element", "the element", "", "element"),
     Quantity("largest_uplift_arc_length", "arc length of its middle", "length"),
-    Quantity("reaction", "total normal force on its nodes; `null` on a rigid seabed", "force"),
-    Quantity("submerged_weight", "of its elements in contact, with contents and masses at nodes", "force"),
-    Quantity("empty_weight", "the same without contents", "force"),
+    Quantity(
+        "reaction",
+        "total normal force on its nodes; `null` on a rigid seabed",
+        "force",
+        "total\nreaction",
+        "total reaction",
+    ),
+    Quantity(
+        "submerged_weight",
+        "of its elements in contact, with contents and masses at nodes",
+        "force",
+        "submerged\nweight",
+    ),
+    Quantity("empty_weight", "the same without contents", "force", "weight,\nempty"),
     Quantity("ratio", "reaction / submerged weight"),
 )
 """Columns of lines, in order; a value that does not exist is `null`."""
 
 STEPS = _by_name(
-    Quantity("reaction", "total normal force on all nodes; `null` on a rigid seabed", "force", label="total reaction"),
+    Quantity(
+        "reaction",
+        "total normal force on all nodes; `null` on a rigid seabed",
+        "force",
+        "total\nreaction",
+        "total reaction",
+    ),
     Quantity(
         "force",
         "largest magnitude of an element's force per unit length, with its sign",
@@ -193,8 +248,8 @@ STEPS = _by_name(
         "line_force",
         label="largest suction\nper length",
     ),
-    Quantity("touching", "number of elements in contact", label="elements\nin contact"),
-    Quantity("deepest", "largest depth of an element", "length", label="deepest\nembedment"),
+    Quantity("touching", "number of elements in contact", "", "in\ncontact", "elements\nin contact"),
+    Quantity("deepest", "largest depth of an element", "length", "largest\ndepth", "deepest\nembedment"),
 )
 """Figures of a step, as plotted over time."""
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import click
 
-from mudline.basics.display import Cell, DisplayColumn, DisplayTable, Value, number, text
+from mudline.basics.display import Cell, DisplayColumn, DisplayTable, Value, text
 from mudline.basics.files import recording_looks
 from mudline.basics.quantities import shown
 from mudline.cli.evaluate_inputs import EvaluateInputs
@@ -276,7 +276,7 @@ def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:
     """Yield the columns of the evaluated decks with a heading; units and steps only where decks differ in them."""
     systems = {row.units for row in listed}
     units = listed[0].units or "" if len(systems) == 1 else ""
-    shown_names = {name for name, quantity in CASES.items() if quantity.label}
+    shown_names = {name for name, quantity in CASES.items() if quantity.heading}
     shown_names |= {"units"} if len(systems) > 1 else set()
     shown_names |= {"steps"} if any(row.steps != 1 for row in listed) else set()
     if all(row.submerged_weight == row.empty_weight for row in listed):
@@ -284,7 +284,7 @@ def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:
     for name, quantity in CASES.items():
         if name in shown_names:
             value = _VALUES.get(name, partial(_shortened, name))
-            yield number(quantity.label or name, value, quantity.unit_name(units), optional=True)
+            yield quantity.column(units, value, optional=True)
 
 
 def _shortened(name: str, row: CaseSummary) -> Cell:

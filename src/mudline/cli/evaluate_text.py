@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import islice, pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from mudline.basics.display import DisplayColumn, DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import LINES, STEPS, shown, time_unit, unit_names
+from mudline.basics.quantities import LINES, NODES, STEPS, shown, time_unit
 from mudline.basics.short_repr import counted
 from mudline.cli.streams import View
 from mudline.model.contact import ContactResult, Plan
@@ -21,8 +22,9 @@ from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
+from mudline.model.results.forms import plan_rows
 from mudline.model.results.series import SeriesSummary
-from mudline.model.results.summary_tables import law_table, span, weight_note
+from mudline.model.results.summary_tables import law_table, plan_table, span, state_table, touchdown_table, weight_note
 from mudline.model.results.totals import (
     NOT_KNOWN,
     acted_on,
@@ -53,8 +55,7 @@ _SHOWN_POINTS = 3
 
 def print_plan(plan: Plan, view: View) -> None:
     """Print the stages, whether they are active, and why."""
-    columns = (text("stage", "stage"), text("active", lambda row: "yes" if row.active else "no"), text("why", "why"))
-    view.printer().table(DisplayTable(f"Plan, {plan.steps}", columns, list(plan)))
+    view.printer().table(plan_table(plan_rows(plan), plan.steps))
 
 
 class Screen:
@@ -125,23 +126,27 @@ def _print_state(printer: Printer, screen: Screen) -> None:
     _print_totals(printer, evaluation, result)
     _print_lines(printer, screen)
     if rows_of_states := states(evaluation, result):
-        of_state = (text("law", "law"), text("state", "state"), number("count", "count"))
-        printer.table(DisplayTable("States", of_state, rows_of_states))
+        printer.table(state_table(rows_of_states))
     if screen.which == "elements":
-        headings, acts = _OF_ELEMENT, (carried(result) | (np.nan_to_num(result.force) != 0.0))[evaluation.elements]
+        acts = (carried(result) | (np.nan_to_num(result.force) != 0.0))[evaluation.elements]
         distance = _from_touchdown(screen)[evaluation.elements[acts]]
     else:
-        headings, acts = _OF_NODE, np.isin(evaluation.nodes, acted_on(evaluation, result))
+        acts = np.isin(evaluation.nodes, acted_on(evaluation, result))
         distance = np.zeros(int(acts.sum()))
+    names = _OF_ELEMENT if screen.which == "elements" else _OF_NODE
     lacking = {"state"} if result.state is None else set()
-    lacking |= {name for name in headings if "_force" in name and result.friction is None}
-    lacking |= {name for name in headings if "_state" in name and result.friction_state is None}
-    available = {each.name: each for group in evaluation.table(screen.which).columns(first) for each in group.flat()}
-    shown_columns = [available[name] for name in headings if name not in lacking]
-    columns = [
-        number(headings[each.name], at, each.unit, left=bool(each.names)) for at, each in enumerate(shown_columns)
-    ]
-    listed = [_cells(column, column.cut(0, 1)[0, acts], every=screen.every) for column in shown_columns]
+    lacking |= {name for name in names if "_force" in name and result.friction is None}
+    lacking |= {name for name in names if "_state" in name and result.friction_state is None}
+    table = evaluation.table(screen.which)
+    available = {each.name: each for each in table.columns(first)}
+    columns: list[DisplayColumn] = []
+    listed: list[list[str | float]] = []
+    for name in names:
+        for each in available[name].flat() if name not in lacking else ():
+            column = table.quantities[name].column(evaluation.scene.units, len(columns), left=bool(each.names))
+            axis = each.name.removeprefix(name).replace("_", " ").upper()
+            columns.append(replace(column, heading=column.heading + axis))
+            listed.append(_cells(each, each.cut(0, 1)[0, acts], every=screen.every))
     rows: list[Cells] = list(zip(*listed, strict=True))
     note = ""
     if not screen.every:
@@ -173,15 +178,9 @@ def _from_touchdown(screen: Screen) -> Floats:
     return distances
 
 
-_OF_ELEMENT = {name: name for name in ("element", "law", "depth", "ratio", "force", "stiffness", "length", "state")}
-_OF_NODE = {
-    "node": "node",
-    "gap": "gap",
-    **{f"reaction_{axis.lower()}": f"reaction {axis}" for axis in "XYZ"},
-    **{f"{direction}_force": f"{direction}\nforce" for direction in ("axial", "lateral")},
-    **{f"{direction}_state": direction for direction in ("axial", "lateral")},
-}
-"""Columns of elements and nodes that are shown, with their headings."""
+_OF_ELEMENT = ("element", "law", "depth", "ratio", "force", "stiffness", "length", "state")
+_OF_NODE = ("node", "gap", "reaction", "axial_force", "lateral_force", "axial_state", "lateral_state")
+"""Columns of elements and nodes that are shown."""
 
 
 def _cells(column: ResultColumn, of: NDArray[np.generic], *, every: bool) -> list[str | float]:
@@ -204,7 +203,7 @@ def _print_totals(printer: Printer, evaluation: Evaluation, result: ContactResul
         sums = {name: sum(each[name] for each in rows) for name in ("elements", "touching")}
         deepest = max((each["deepest"] for each in rows if each["deepest"] is not None), default=None)
         rows.append({"law": "total", "set_name": "", **sums, "deepest": deepest, "reaction": known})
-    printer.table(law_table(_title(evaluation), rows, unit_names(evaluation.scene.units), "total\nreaction"))
+    printer.table(law_table(_title(evaluation), rows, evaluation.scene.units))
 
 
 def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cells, float, bool]]:
@@ -242,16 +241,19 @@ def _joined(rows: Sequence[Cells], near: Sequence[float]) -> Iterator[tuple[Cell
 def _print_steps(printer: Printer, screen: Screen) -> None:
     """Print a row for each step: of the elements, or of the nodes."""
     evaluation, rows = screen.evaluation, screen.steps
-    names, of_nodes = unit_names(evaluation.scene.units), screen.which == "nodes"
+    units, of_nodes = evaluation.scene.units, screen.which == "nodes"
     which = "node" if of_nodes else "element"
-    of_gap = [number("smallest\ngap", "gap", names.length), number("largest\non a node", "largest", names.force)]
+    of_gap = [
+        number("smallest\ngap", "gap", NODES["gap"].unit_name(units)),
+        number("largest\non a node", "largest", NODES["normal_force"].unit_name(units)),
+    ]
     columns = [
         _time(evaluation, "time"),
-        number("in\ncontact", "touching"),
+        STEPS["touching"].column(units),
         number(f"first\n{which}", "first"),
         number(f"last\n{which}", "last"),
-        *(of_gap if of_nodes else [number("largest\ndepth", "deepest", names.length)]),
-        number("total\nreaction", "reaction", names.force),
+        *(of_gap if of_nodes else [STEPS["deepest"].column(units)]),
+        STEPS["reaction"].column(units),
         *([] if of_nodes else [number("suction\nor hold", "sucked", optional=True)]),
         number("nodes\nslipping", "slipping", optional=True),
     ]
@@ -289,48 +291,26 @@ def _print_peaks(printer: Printer, series: SeriesSummary) -> None:
 def _print_lines(printer: Printer, screen: Screen) -> None:
     """Print touchdown, largest forces, reaction and weight of lines, a row for each line and step."""
     evaluation, rows = screen.evaluation, screen.lines
-    names = unit_names(evaluation.scene.units)
-    filled = any(row.submerged_weight != row.empty_weight for row in rows)
-    columns = [
-        *([] if evaluation.time is None else [_time(evaluation, "time")]),
-        number("line", "line"),
-        text("elements", lambda row: span(row.first_element, row.last_element)),
-        number("touchdown\nat", _touchdown, names.length),
-        number("length in\ncontact", "contact_length", names.length),
-        number("largest\nforce", "largest_force.force", names.line_force),
-        number("element", "largest_force.element"),
-        number("largest\nuplift", "largest_uplift.force", names.line_force, optional=True),
-        number("element", "largest_uplift.element", optional=True),
-        number("total\nreaction", "reaction", names.force, missing=NOT_KNOWN),
-        number("submerged\nweight", "submerged_weight", names.force),
-        *([number("weight,\nempty", "empty_weight", names.force)] if filled else []),
-        number("ratio", "ratio"),
-    ]
     left = len(evaluation.lines) * evaluation.steps - len(rows)
     if rows:
         notes = [
             f"{left} {_MORE_LINES}" if left else "",
             weight_note(evaluation.weights_without, evaluation.contents_case),
         ]
-        printer.table(DisplayTable("Touchdown", columns, rows, "; ".join(filter(None, notes))))
+        lines, note = [row.row() for row in rows], "; ".join(filter(None, notes))
+        timed = evaluation.time is not None
+        printer.table(touchdown_table(lines, evaluation.scene.units, _touchdown, note, timed=timed))
 
 
-def _touchdown(row: LineSummary) -> str:
-    places = [point.arc_length for point in row.touchdown]
-    return touchdown_words(places, row.contact_length, row.length, _SHOWN_POINTS)
+def _touchdown(row: dict[str, Any]) -> str:
+    places = [point["arc_length"] for point in row["touchdown"]]
+    return touchdown_words(places, row["contact_length"], row["length"], _SHOWN_POINTS)
 
 
 def _print_extents(printer: Printer, series: SeriesSummary, most: int) -> None:
     """Print the ranges of touchdown, length in contact, forces and reaction of each line."""
     evaluation, times, lines = series.evaluation, series.evaluation.time, series.evaluation.lines.tolist()
-    figures = {
-        "first_touchdown": "touchdown point",
-        "last_touchdown": "last touchdown point",
-        "contact_length": "length in contact",
-        "largest_force": "largest force",
-        "largest_uplift": "uplift, negative",
-        "reaction": "total reaction",
-    }
+    figures = ("first_touchdown", "last_touchdown", "contact_length", "largest_force", "largest_uplift", "reaction")
     rows = []
     for at, line in enumerate(lines):
         extents = {name: extent for name in figures if (extent := series.of("summary", name).extent(at, times))}
@@ -338,7 +318,7 @@ def _print_extents(printer: Printer, series: SeriesSummary, most: int) -> None:
         if last == first:
             extents.pop("last_touchdown", None)
         for name, extent in extents.items():
-            what, unit = figures[name], LINES[name].unit_name(evaluation.scene.units)
+            what, unit = LINES[name].label, LINES[name].unit_name(evaluation.scene.units)
             both = name == "first_touchdown" and "last_touchdown" in extents
             rows.append((line + 1, f"first {what}" if both else what, unit, *extent))
     columns = [

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
-from mudline.basics.quantities import UnitNames, shown, unit_names
+from mudline.basics.quantities import LINES, STEPS, shown, time_unit, unit_names
 from mudline.model.contact.columns import ResultColumn, coded
 from mudline.model.results.forms import ResultTables
+from mudline.model.results.totals import NOT_KNOWN
 from mudline.model.scene.sheet import Sheet
 
 OPEN = "+ a block that is not read may add elements to this set"
@@ -31,27 +32,29 @@ def elements_of(row: dict[str, Any]) -> Cell:
     return f"{row['elements']}+" if row["open"] else row["elements"]
 
 
-def set_table(sets: Rows, names: UnitNames) -> DisplayTable:
+def set_table(sets: Rows, units: str) -> DisplayTable:
     """Return the table of the element sets."""
-    columns = (text("set", "name"), number("elements", elements_of), number("length", "length", names.length))
+    columns = (
+        text("set", "name"),
+        number("elements", elements_of),
+        number("length", "length", unit_names(units).length),
+    )
     return DisplayTable("Element sets", columns, sets, OPEN if any(row["open"] for row in sets) else "")
 
 
-def diameter_table(diameters: Rows, names: UnitNames, none: Cell = None) -> DisplayTable:
+def diameter_table(diameters: Rows, units: str, none: Cell = None) -> DisplayTable:
     """Return the table of external diameters; `none` is the text for an unknown diameter."""
-    columns = (number("diameter", "diameter", names.length, missing=none), number("elements", "elements"))
+    columns = (number("diameter", "diameter", unit_names(units).length, missing=none), number("elements", "elements"))
     return DisplayTable("External diameters", columns, diameters)
 
 
-def static_table(
-    rows: Rows, names: UnitNames, left_out: Sequence[str], case: int | None, *, first: bool
-) -> DisplayTable:
+def static_table(rows: Rows, units: str, left_out: Sequence[str], case: int | None, *, first: bool) -> DisplayTable:
     """Return the table of static embedment; `first` adds the first element of a row.
 
     `left_out` are weights not included, `case` is the load case of the contents if they differ.
     The stiffness of springs of nodes is that of a node, and has no unit here.
     """
-    several = any(row["filled"] for row in rows)
+    names, several = unit_names(units), any(row["filled"] for row in rows)
     unit = "" if any(row["law"] == "nodal" for row in rows) else names.stiffness
     columns = (
         text("set", "set"),
@@ -66,17 +69,55 @@ def static_table(
     return DisplayTable("Static embedment", columns, rows, weight_note(left_out, case))
 
 
-def law_table(title: str, totals: Rows, names: UnitNames, reaction: str) -> DisplayTable:
-    """Return the table of totals by law and set, with a heading for the reaction."""
+def law_table(title: str, totals: Rows, units: str) -> DisplayTable:
+    """Return the table of totals by law and set."""
     columns = (
         text("law", "law"),
         text("set", "set_name"),
         number("elements", "elements"),
-        number("in\ncontact", "touching"),
-        number("largest\ndepth", lambda row: row["deepest"] if row["touching"] else None, names.length),
-        number(reaction, "reaction", names.force),
+        STEPS["touching"].column(units),
+        STEPS["deepest"].column(units, lambda row: row["deepest"] if row["touching"] else None),
+        STEPS["reaction"].column(units),
     )
     return DisplayTable(title, columns, totals)
+
+
+def touchdown_table(
+    lines: Rows, units: str, touchdown: Callable[[dict[str, Any]], str], note: str, *, timed: bool = False
+) -> DisplayTable:
+    """Return the table of touchdown, largest forces, reaction and weight, a row for each line, and step if `timed`.
+
+    `touchdown` returns the text about the touchdown points of a line. Weights without contents are shown if they
+    differ.
+    """
+    filled = any(row["submerged_weight"] != row["empty_weight"] for row in lines)
+    columns = [
+        *([number("time", "time", time_unit(units))] if timed else []),
+        LINES["line"].column(units),
+        text("elements", lambda row: span(row["first_element"], row["last_element"])),
+        LINES["first_touchdown"].column(units, touchdown),
+        LINES["contact_length"].column(units),
+        LINES["largest_force"].column(units, "largest_force.force"),
+        LINES["largest_force_element"].column(units, "largest_force.element"),
+        LINES["largest_uplift"].column(units, "largest_uplift.force", optional=True),
+        LINES["largest_uplift_element"].column(units, "largest_uplift.element", optional=True),
+        LINES["reaction"].column(units, missing=NOT_KNOWN),
+        LINES["submerged_weight"].column(units),
+        *([LINES["empty_weight"].column(units)] if filled else []),
+        LINES["ratio"].column(units),
+    ]
+    return DisplayTable("Touchdown", columns, lines, note)
+
+
+def state_table(states: Rows) -> DisplayTable:
+    """Return the table of the states of laws with states."""
+    return DisplayTable("States", (text("law", "law"), text("state", "state"), number("count", "count")), states)
+
+
+def plan_table(stages: Rows, steps: str) -> DisplayTable:
+    """Return the table of the stages of an evaluation; `steps` is the order of its time steps."""
+    active = text("active", lambda row: "yes" if row["active"] else "no")
+    return DisplayTable(f"Plan, {steps}", (text("stage", "stage"), active, text("why", "why")), stages)
 
 
 def weight_note(left_out: Sequence[str], case: int | None = None) -> str:
@@ -87,22 +128,23 @@ def weight_note(left_out: Sequence[str], case: int | None = None) -> str:
 
 def tables_of(summary: dict[str, Any], most: int) -> list[DisplayTable]:
     """Return the tables of a summary of a deck that have rows; `most` is the largest number of diameters."""
-    names = unit_names(summary["units"])
+    units = summary["units"]
     of_set = (text("set", "set"), number("elements", "elements"))
-    stiffness = number("stiffness", "stiffness", names.stiffness, optional=True)
+    stiffness = number("stiffness", "stiffness", unit_names(units).stiffness, optional=True)
     tables = (
-        set_table(summary["sets"], names),
-        _curves(summary["curves"], names),
-        diameter_table(summary["diameters"], names, none="none").first(most, "diameter"),
+        set_table(summary["sets"], units),
+        _curves(summary["curves"], units),
+        diameter_table(summary["diameters"], units, none="none").first(most, "diameter"),
         DisplayTable("Normal laws", (text("law", "law"), *of_set, stiffness), summary["laws"]),
-        _resistance(summary["bed"], names),
+        _resistance(summary["bed"], units),
         DisplayTable("Extensions", (text("keyword", _keyword), *of_set), summary["extensions"]),
-        _static(summary["static_embedment"], names, summary["weights_without"], summary["contents_case"]),
+        _static(summary["static_embedment"], units, summary["weights_without"], summary["contents_case"]),
     )
     return [table for table in tables if table.rows]
 
 
-def _curves(curves: Rows, names: UnitNames) -> DisplayTable:
+def _curves(curves: Rows, units: str) -> DisplayTable:
+    names = unit_names(units)
     columns = (
         text("curve", "name"),
         text("keyword", _keyword),
@@ -122,7 +164,8 @@ def _range(ends: list[float] | None) -> str:
     return "" if ends is None else f"{shown(ends[0])} to {shown(ends[1])}"
 
 
-def _resistance(blocks: Rows, names: UnitNames) -> DisplayTable:
+def _resistance(blocks: Rows, units: str) -> DisplayTable:
+    names = unit_names(units)
     columns = (
         text("set", "set"),
         number("elements", "elements"),
@@ -139,9 +182,9 @@ def _pair(values: list[float | None]) -> str:
     return ", ".join(shown(value) or "-" for value in values) if values != [None, None] else ""
 
 
-def _static(rows: Rows, names: UnitNames, left_out: Sequence[str], case: int | None) -> DisplayTable:
+def _static(rows: Rows, units: str, left_out: Sequence[str], case: int | None) -> DisplayTable:
     alike = len({(row["set"], row["law"], row["filled"]) for row in rows}) < len(rows)
-    table = static_table(rows, names, left_out, case, first=alike)
+    table = static_table(rows, units, left_out, case, first=alike)
     return replace(table, columns=[*table.columns, text("extrapolated", "extrapolated", optional=True)])
 
 

@@ -22,7 +22,6 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from mudline.basics.display import DisplayTable, number, text
-from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.checks.configuration import SEVERITIES
 from mudline.checks.output import visible
@@ -63,7 +62,7 @@ def page(report: PageContent, look: Look) -> str:
         report=content,
         tables=tables,
         details=details,
-        figures=figure_table(figures, unit_names(content["units"])) if figures and not figures["missing"] else None,
+        figures=figure_table(figures, content["units"]) if figures and not figures["missing"] else None,
         head=_css_text(", ".join(filter(None, [document["number"], revision, content["deck"]]))),
         hash=_css_text(f"SHA-256 {content['sha256'][:_SHORT_HASH]}"),
         study_texts=[text for text in study_texts if text],

@@ -8,16 +8,19 @@ from typing import Any
 
 from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import UnitNames, labelled, shown, unit_names
+from mudline.basics.quantities import LINES, STEPS, labelled, shown, unit_names
 from mudline.basics.short_repr import counted, cut
 from mudline.model.results.summary_tables import (
     OPEN,
     diameter_table,
     elements_of,
     law_table,
+    plan_table,
     set_table,
     sheet_tables,
+    state_table,
     static_table,
+    touchdown_table,
     weight_note,
 )
 from mudline.model.results.totals import NOT_KNOWN, touchdown_words
@@ -43,12 +46,12 @@ def on_page(table: DisplayTable, most: int = SHOWN_ROWS, longest: int = LONGEST_
 
 def page_tables(report: PageContent) -> tuple[dict[str, list[DisplayTable]], dict[str, list[DisplayTable]]]:
     """Return the tables by section, and those of the appendix, which has the long ones too."""
-    content, names = report.json, unit_names(report.json["units"])
+    content, units = report.json, report.json["units"]
     sections = content["sections"]
     of_section = {"model": _model, "curves": _curves, "contact": _contact}
     of_appendix = {"model": _model_details, "curves": _curve_points, "contact": _states, "plan": _plan}
     tables, details = (
-        {name: list(shape(sections[name], names)) for name, shape in each.items() if sections.get(name)}
+        {name: list(shape(sections[name], units)) for name, shape in each.items() if sections.get(name)}
         for each in (of_section, of_appendix)
     )
     if inputs := sections.get("inputs"):
@@ -67,17 +70,17 @@ _SHAPES = {"deck": "the deck's own coordinates", "rest shape": "the resting shap
 """Description of the shape of the line, by the source of its positions."""
 
 
-def figure_table(content: dict[str, Any], names: UnitNames) -> DisplayTable:
+def figure_table(content: dict[str, Any], units: str) -> DisplayTable:
     """Return the five numbers next to the verdict as a table of one row."""
     words = _touchdown(content["touchdown"], content["contact_length"], content["length"])
     doubt = f"warnings about these numbers: {', '.join(content['warnings'])}" if content["warnings"] else ""
     shape = f"at {_SHAPES[content['positions']]}; no load case is solved"
     notes = filter(None, [shape, _weight_note(content), doubt])
     columns = (
-        number("touchdown at arc length", lambda _: words, names.length),
-        number("length in contact", "contact_length", names.length),
-        number("largest penetration", "depth", names.length),
-        number("total reaction", "reaction", names.force, missing=NOT_KNOWN),
+        LINES["first_touchdown"].column(units, lambda _: words),
+        LINES["contact_length"].column(units),
+        STEPS["deepest"].column(units, "depth"),
+        STEPS["reaction"].column(units, missing=NOT_KNOWN),
         number("reaction over submerged weight", "ratio"),
     )
     return on_page(DisplayTable("Contact in five numbers", columns, [content], "; ".join(notes)))
@@ -106,19 +109,22 @@ def _inputs(content: dict[str, Any], sheet: Sheet | None, deck: str) -> Iterator
         yield on_page(table, 2 * SHOWN_ROWS)
 
 
-def _model(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable]:
+def _model(content: dict[str, Any], units: str) -> Iterator[DisplayTable]:
     # empty and with contents side by side
     rows = sorted(content["static_embedment"], key=lambda row: int(row["element"]))
-    yield on_page(static_table(rows, names, content["weights_without"], content["contents_case"], first=False))
+    yield on_page(static_table(rows, units, content["weights_without"], content["contents_case"], first=False))
 
 
-def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable]:
+def _model_details(content: dict[str, Any], units: str) -> Iterator[DisplayTable]:
     more = "+" if content["sets"][0]["open"] else ""  # of ALL, which comes first
     counts = [(name, f"{content[name]}{more}") for name in ("nodes", "elements")]
-    counts += [("seabed", content["floor"]["kind"]), (labelled("length of line", names.length), content["length"])]
+    counts += [
+        ("seabed", content["floor"]["kind"]),
+        (labelled("length of line", unit_names(units).length), content["length"]),
+    ]
     yield on_page(DisplayTable("Size", _FIGURES, counts))
-    yield on_page(set_table(content["sets"], names), MOST_CURVES)
-    yield on_page(diameter_table(content["diameters"], names))
+    yield on_page(set_table(content["sets"], units), MOST_CURVES)
+    yield on_page(diameter_table(content["diameters"], units))
     keywords = [(section["name"], keyword) for section in content["keywords"] for keyword in section["keywords"]]
     columns = (
         text("section", lambda row: f"${row[0]}"),
@@ -131,7 +137,7 @@ def _model_details(content: dict[str, Any], names: UnitNames) -> Iterator[Displa
 _FIGURES = (text("what", 0), number("value", 1))
 
 
-def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
+def _curves(content: dict[str, Any], _units: str) -> Iterator[DisplayTable]:
     columns = (
         text("law", lambda row: cut(row["law"], LONGEST_NAME)),
         text("set", lambda row: cut(row["set"], LONGEST_NAME)),
@@ -144,7 +150,8 @@ def _curves(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable
     yield on_page(laws, MOST_CURVES, LONGEST)
 
 
-def _curve_points(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable]:
+def _curve_points(content: dict[str, Any], units: str) -> Iterator[DisplayTable]:
+    names = unit_names(units)
     for place, row in enumerate(content["curves"][:MOST_CURVES], 1):
         over, value = row["axes"]
         slopes = [segment["slope"] for segment in row["segments"]]
@@ -165,7 +172,8 @@ def _weight_note(content: dict[str, Any]) -> str:
     return weight_note(content["weights_without"], content["contents_case"])
 
 
-def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable]:
+def _contact(content: dict[str, Any], units: str) -> Iterator[DisplayTable]:
+    names = unit_names(units)
     masses = "" if any(keyword.startswith("*MASS") for keyword in content["weights_without"]) else " and masses"
     weight = f"submerged weight of the elements in contact, with contents{masses}"
     figures = [
@@ -180,40 +188,26 @@ def _contact(content: dict[str, Any], names: UnitNames) -> Iterator[DisplayTable
     notes = [_weight_note(content), *content["notes"]]
     title = f"Equilibrium of {_SHAPES[content['positions']]}"
     yield on_page(DisplayTable(title, _FIGURES, figures, "; ".join(filter(None, notes))))
-    yield on_page(law_table("By law and set", content["laws"], names, "reaction"), MOST_CURVES)
+    yield on_page(law_table("By law and set", content["laws"], units), MOST_CURVES)
 
     def of_line(line: dict[str, Any]) -> str:
         places = (point["arc_length"] for point in line["touchdown"])
         return _touchdown(places, line["contact_length"], line["length"])
 
-    columns = [
-        number("line", "line"),
-        text("elements", lambda row: f"{row['first_element']} to {row['last_element']}"),
-        number("touchdown at arc length", of_line, names.length),
-        number("length in contact", "contact_length", names.length),
-        number("largest force", "largest_force.force", names.line_force),
-        number("reaction", "reaction", names.force, missing=NOT_KNOWN),
-        number("weight", "submerged_weight", names.force),
-        number("weight, empty", "empty_weight", names.force),
-        number("ratio", "ratio"),
-    ]
-    yield on_page(DisplayTable("Touchdown", columns, content["lines"], _weight_note(content)))
+    yield on_page(touchdown_table(content["lines"], units, of_line, _weight_note(content)))
     columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
     warnings = content["warnings"][:SHOWN_ROWS]
     yield on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
 
 
-def _states(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
-    columns = [text("law", "law"), text("state", "state"), number("count", "count")]
-    yield on_page(DisplayTable("States", columns, content["states"]))
+def _states(content: dict[str, Any], _units: str) -> Iterator[DisplayTable]:
+    yield on_page(state_table(content["states"]))
 
 
 def _touchdown(places: Iterable[float], in_contact: float, length: float) -> str:
     return touchdown_words([float(four_digits(each)) for each in places], in_contact, length, _MOST_TOUCHDOWNS)
 
 
-def _plan(content: dict[str, Any], _names: UnitNames) -> Iterator[DisplayTable]:
+def _plan(content: dict[str, Any], _units: str) -> Iterator[DisplayTable]:
     stages = content["stages"]
-    columns = (text("stage", "stage"), text("in or out", lambda row: "in" if row["active"] else "left out"))
-    table = DisplayTable(f"Stages of the evaluation, {content['steps']}", [*columns, text("why", "why")], stages)
-    yield on_page(table, len(stages), LONGEST)
+    yield on_page(plan_table(stages, content["steps"]), len(stages), LONGEST)
