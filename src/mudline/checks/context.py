@@ -21,7 +21,6 @@ from mudline.language.keywords.catalogue import holds_in_soil
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.language.syntax.tree import RawBlock
-from mudline.model.scene.context import placed_blocks
 from mudline.model.scene.model import Scene, resolve
 
 T = TypeVar("T")
@@ -60,16 +59,12 @@ class LintContext:
         return resolve(self.deck)
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
-        """Return the same as `Deck.blocks` for the deck of the scene, whose equations are evaluated."""
-        return self.scene.context.placed.get((section, keyword), ())
+        """Return `Deck.blocks` of the deck of the scene, whose equations are evaluated."""
+        return list(self.scene.deck.blocks(keyword, section))
 
     def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
-        """Return the same as `Deck.blocks` for the deck itself, with its equations."""
-        return self._written.get((section, keyword), ())
-
-    @cached_property
-    def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-        return placed_blocks(self.deck)
+        """Return `Deck.blocks` of the deck itself, with its equations."""
+        return list(self.deck.blocks(keyword, section))
 
     @cached_property
     def keywords(self) -> set[str]:

@@ -13,10 +13,11 @@ import numpy as np
 from mudline.checks.context import LintContext
 from mudline.checks.rules.curve_points import swapped
 from mudline.checks.rules.slips import UNITLESS, DeckUnits, is_placeholder, meant_unit
+from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.contents import names_given
-from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
+from mudline.language.keywords.model import FEWEST_POINTS, Block, FieldSpec, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import (
     BED,
@@ -186,7 +187,7 @@ def _metal(of: Numbers) -> bool:
 
 def _waves_in_time(of: Numbers) -> bool:
     in_time = all(block.type_ != "STATIC" for _, block in of.context.blocks("ANALYSIS TYPE", "LOAD CASE"))
-    return in_time and any(keyword.startswith("WAVE-") for _, keyword in of.context.scene.context.placed)
+    return in_time and any(_waves(of.context))
 
 
 CONDITIONS: Mapping[str, Callable[[Numbers], bool]] = {
@@ -264,11 +265,19 @@ def _on_vessels(context: LintContext) -> dict[int, str]:
     return held_freedoms(context.scene, [context.scene.deck])[1]
 
 
+def _waves(context: LintContext) -> list[Block]:
+    return [
+        block
+        for _, _, block in context.scene.deck.every_block()
+        if block.keyword.startswith("WAVE-") and not isinstance(block, Opaque)
+    ]
+
+
 def _shortest_period(context: LintContext) -> float:
     """Return the shortest wave period of a load case, for random seas the peak period; infinite without waves."""
-    placed = context.scene.context.placed.items()
-    blocks = (block for (_, keyword), listed in placed if keyword.startswith("WAVE-") for _, block in listed)
-    values = ((slot.about.usual, value) for block in blocks for _, slot, value in block.walk() if slot.about.usual)
+    values = (
+        (slot.about.usual, value) for block in _waves(context) for _, slot, value in block.walk() if slot.about.usual
+    )
     periods = (
         1.0 / value if usual is SEA_FREQUENCY else value
         for usual, value in values

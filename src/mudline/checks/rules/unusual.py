@@ -32,6 +32,7 @@ from mudline.checks.rules.slips import (
     units_of,
 )
 from mudline.language.codes.fields import SYN015
+from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Code, Problem, Where
 from mudline.language.keywords.contents import in_words
 from mudline.language.keywords.model import FieldSpec, Part, Path, Rows, record_schema
@@ -72,8 +73,8 @@ def _by_code(context: LintContext) -> dict[str, list[Problem]]:
 
 
 def _of_deck(deck: Numbers) -> list[Judged]:
-    placed = deck.context.scene.context.placed.values()
-    own = [judged for blocks in placed for where, block in blocks for judged in _inside(deck, block, None, where)]
+    read = ((where, block) for where, _, block in deck.context.scene.deck.every_block() if type(block) is not Opaque)
+    own = [judged for where, block in read for judged in _inside(deck, block, None, where)]
     return [*own, *_in_files(deck)]
 
 

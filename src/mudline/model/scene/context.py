@@ -103,13 +103,8 @@ class Context:
             self.unread |= {block.keyword for where, _, block in self.deck.every_block() if self.deck.lost(where)}
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
-        """Return the same as `Deck.blocks` for the evaluated deck, computed once for all callers."""
-        return self.placed.get((section, keyword), ())
-
-    @cached_property
-    def placed(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-        """Blocks of every section and keyword."""
-        return placed_blocks(self.deck)
+        """Return `Deck.blocks` of the evaluated deck."""
+        return list(self.deck.blocks(keyword, section))
 
     @cached_property
     def names(self) -> dict[Names, NamesOfKind]:
@@ -398,13 +393,3 @@ class Context:
     def labels(self) -> dict[str, str]:
         """Possible labels of nodes that lines make, and those of `*LABEL`, by their folded form."""
         return first_written(self.deck, texts_in) | labels_given(self.written, Names.NODE)
-
-
-def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-    """Return the same as `Deck.blocks` for every section and keyword."""
-    blocks: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
-    own = len(deck.own_sections)
-    for where, section, block in sorted(deck.every_block(), key=lambda placed: placed[0].section < own):
-        if type(block) is not Opaque:  # isinstance of a model takes several times as long
-            blocks.setdefault((section, block.keyword), []).append((where, block))
-    return blocks
