@@ -13,12 +13,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple, Protocol
 
-import numpy as np
-
 from mudline.basics.installed import install_hint
-from mudline.basics.quantities import RESULT_FORMAT, time_unit
+from mudline.basics.quantities import RESULT_FORMAT
 from mudline.model.contact import Plan
-from mudline.model.contact.columns import ResultColumn
+from mudline.model.contact.columns import ResultColumn, timed
 from mudline.model.contact.frames import array_name
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
@@ -69,6 +67,8 @@ FORMS = {
     ),
 }
 """Formats by suffix."""
+TABLES = ("elements", "nodes", "summary")
+"""Tables of results."""
 TEXTS = ("csv", "json")
 """Formats that standard output has too."""
 
@@ -111,11 +111,8 @@ class FileContent:
 
     def timed(self, table: str, columns: Sequence[ResultColumn], start: int, count: int) -> list[ResultColumn]:
         """Return the flat columns of a table, after a column of times if there are any."""
-        flat = [part for column in columns for part in column.flat()]
-        if self.times is None:
-            return flat
-        times = np.broadcast_to(self.times[start : start + count, np.newaxis], (count, self.rows[table]))
-        return [ResultColumn("time", times, unit=time_unit(self.units)), *flat]
+        clock = None if self.times is None else self.times[start : start + count]
+        return timed(columns, clock, self.rows[table], self.units)
 
 
 class Writer(Protocol):
@@ -145,7 +142,7 @@ class Sink:
     ) -> None:
         """Open the writer of a format for all tables, or of CSV for one table. Raises what `open_writer` does."""
         self._evaluation, self._form, self._comparison = evaluation, form, comparison
-        names = ("elements", "nodes", "summary") if only is None else (only,)
+        names = TABLES if only is None else (only,)
         self._tables = {name: evaluation.table(name) for name in (("elements", "nodes") if form == "json" else names)}
         rows = {name: table.rows for name, table in self._tables.items()}
         plan = {"plan": plan_rows(evaluation.model.plan)}
