@@ -19,7 +19,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.contact.result import ResultPart
 from mudline.model.contact.touchdown import LineSeries, side_by_side
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.forms import TABLES, ResultTables, plan_rows
+from mudline.model.results.forms import TABLES, FileContent, ResultTables, Writer, plan_rows
 from mudline.model.results.totals import HELD, StepValues, carried, step_figures
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats, Mask
@@ -240,6 +240,22 @@ class SeriesSummary:
         if peak is None or not peak.at >= 0:
             return None
         return int(self.evaluation.scene.element_ids[int(peak.at)])
+
+
+class SeriesSink:
+    """Consumer that passes the summary of a series to a writer after the last step."""
+
+    def __init__(self, evaluation: Evaluation, open_writer: Callable[[FileContent], Writer]) -> None:
+        self._summary, self._open_writer = SeriesSummary(evaluation, *SERIES), open_writer
+
+    def take(self, part: ResultPart) -> None:
+        """Add some steps."""
+        self._summary.take(part)
+
+    def finish(self, warnings: Sequence[ContactWarning] = ()) -> None:
+        """Write the tables. Raises OSError."""
+        tables = series_tables(self._summary, warnings)
+        tables.write(self._open_writer(tables.contents))
 
 
 # --------------------------------------------------------------------------------------------------------------- tables

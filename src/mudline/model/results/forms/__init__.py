@@ -32,19 +32,19 @@ class ResultForm(NamedTuple):
 
     Attributes:
         summary: contents of a file, for the documentation, Markdown.
-        beside: the tables that have files of their own.
+        separate: whether each table has a file of its own.
         library: library that writes it; "" if none is needed.
         extra: extra of mudline that installs the library; "" if none is needed.
     """
 
     summary: str
-    beside: tuple[str, ...] = ()
+    separate: bool = False
     library: str = ""
     extra: str = ""
 
 
 FORMS = {
-    "csv": ResultForm("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", ("nodes", "summary")),
+    "csv": ResultForm("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", separate=True),
     "json": ResultForm("everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"),
     "npz": ResultForm(
         "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), vectors with a last "
@@ -54,16 +54,15 @@ FORMS = {
     "parquet": ResultForm(
         "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
         f"`{install_hint('frames')}`",
-        ("nodes", "summary"),
-        "pyarrow",
-        "frames",
+        separate=True,
+        library="pyarrow",
+        extra="frames",
     ),
     "xlsx": ResultForm(
         "sheets `elements`, `nodes` and `summary`, with units below the names of the columns; "
         f"`{install_hint('excel')}`",
-        (),
-        "xlsxwriter",
-        "excel",
+        library="xlsxwriter",
+        extra="excel",
     ),
 }
 """Formats by suffix."""
