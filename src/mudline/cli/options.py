@@ -206,16 +206,21 @@ def form_of_file(path: str, forms: Collection[str]) -> str:
 
 
 class _OutputFile(click.types.StringParamType):
-    """File that an option writes; - is standard output."""
+    """File that an option writes; of a command that `prints` one text - is standard output, which becomes ""."""
+
+    def __init__(self, *, prints: bool = False) -> None:
+        self._prints = prints
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Claim the file; raises OverwriteError."""
-        if value != "-" and param is not None and not (ctx is not None and ctx.resilient_parsing):
+        if value == "-":
+            return "" if self._prints else value
+        if param is not None and not (ctx is not None and ctx.resilient_parsing):
             claim(value, param.opts[0])
         return value
 
 
-OUTPUT_FILE = _OutputFile()
+OUTPUT_FILE, OUTPUT_TEXT = _OutputFile(), _OutputFile(prints=True)
 output = partial(option, "-o", "--output", type=OUTPUT_FILE, metavar="OUT")
 """Decorator of `-o`, with the help of a command."""
 

@@ -25,7 +25,7 @@ from mudline.tools.reporting.pages import Pages, Wanted, make_page
 @options.output_option(
     "-o",
     "--output",
-    type=options.OUTPUT_FILE,
+    type=options.OUTPUT_TEXT,
     metavar="OUT.html",
     help="Write the page; for several decks or a folder the index, with the pages in a folder next to it.",
 )
@@ -76,7 +76,7 @@ def command(
     names = _sections(sections)
     document = PageHead(**head, fields=tuple(map(_field, fields)))
     html = output_format == "html"
-    if html and output is None:
+    if html and not output:
         raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
     if html:
         require("report", "report", "jinja2", "matplotlib")

@@ -71,7 +71,7 @@ def emit(pieces: Iterable[str]) -> None:
 def emit_json(value: object, output: str | None = None) -> None:
     """Write a value as JSON to standard output, or into a file."""
     pieces = [json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False), "\n"]
-    if output is None:
+    if not output:
         emit(pieces)
     else:
         write_text(Path(output), pieces)
