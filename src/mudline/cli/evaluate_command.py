@@ -12,7 +12,6 @@ from typing import NamedTuple
 import click
 from click.core import ParameterSource
 
-from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import listed_numbers
 from mudline.checks.verdict import errors_beside
@@ -22,7 +21,7 @@ from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation
 from mudline.cli.inputs import GivenDeck
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option, write_plot
 from mudline.cli.result_files import beside, require_library, result_files
-from mudline.cli.streams import Progress, View, counted, emit, emit_json, notify, notify_diagnostics
+from mudline.cli.streams import Progress, View, counted, emit, emit_json, notify, notify_diagnostics, notify_some
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
 from mudline.model.results.forms import FORMS, TABLES, Sink, plan_rows
@@ -224,10 +223,7 @@ def _notify_before(evaluation: Evaluation, comparison: ResultComparison | None) 
 def _notify_after(watch: ContactWatch, series: SeriesSummary, output: str | None, others: Mapping[str, Path]) -> None:
     """Report what is doubtful in the results, where suction is less than its power law gives, and the files."""
     warnings, evaluation = watch.warnings(), series.evaluation
-    for one in warnings[:SHOWN_ROWS]:
-        notify(f"warning: {one}")
-    if len(warnings) > SHOWN_ROWS:
-        notify(f"{len(warnings) - SHOWN_ROWS} more warnings: JSON has all")
+    notify_some([f"warning: {one}" for one in warnings], "{} more warnings: JSON has all")
     if note := watch.note():
         notify(note)
     number = series.number(series.of("suction", "slow").largest.peak())

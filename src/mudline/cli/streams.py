@@ -106,6 +106,14 @@ def notify(message: str) -> None:
     click.echo(f"mudline: {visible_lines(message)}", err=True)
 
 
+def notify_some(messages: Sequence[str], more: str) -> None:
+    """Print the first of many notes, and a last one with the number of the others in place of {} in `more`."""
+    for message in messages[:SHOWN_ROWS]:
+        notify(message)
+    if len(messages) > SHOWN_ROWS:
+        notify(more.format(len(messages) - SHOWN_ROWS))
+
+
 def notify_diagnostics(diagnostics: Sequence[Diagnostic], *, refused: bool = True) -> None:
     """Print the errors that make a deck unusable, or, unless `refused`, findings with their severity."""
     for finding in diagnostics[:SHOWN_ROWS]:

@@ -17,7 +17,7 @@ from mudline.basics.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, 
 from mudline.basics.short_repr import counted
 from mudline.model.contact.columns import ResultColumn, ResultTable, Values, timed
 from mudline.model.contact.result import ContactResult, ResultPart, TableName
-from mudline.model.contact.touchdown import line_summaries, result_table
+from mudline.model.contact.touchdown import result_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -33,14 +33,10 @@ _COORDINATES = frozenset({"set", "law", "line", "arc_length", "diameter", "lengt
 """Columns that identify elements and nodes, next to their numbers."""
 
 _SHOWN = (
-    "first_touchdown",
-    "contact_length",
-    "largest_force",
-    "largest_force_element",
-    "reaction",
-    "submerged_weight",
+    *("time", "line", "touchdown_points", "first_touchdown", "last_touchdown", "contact_length"),
+    *("largest_force", "largest_force_element", "reaction", "submerged_weight"),
 )
-"""Quantities of lines shown in notebooks."""
+"""Columns of lines shown in notebooks."""
 
 
 def dataframe(result: ContactResult, table: TableName) -> pd.DataFrame:
@@ -98,23 +94,13 @@ def html(result: ContactResult) -> str:
         return html_page("ContactResult", summary)
     units = result.given.units
     lines = _table(result, "summary").rows
-    shown = line_summaries(series.steps(0, -(-SHOWN_ROWS // max(lines, 1))))
-    headings = [labelled("time", time_unit(units)), "line"]
-    headings += [labelled(each.label or name, each.unit_name(units)) for name, each in LINES.items() if name in _SHOWN]
-    rows = (
-        (
-            line.time,
-            line.line,
-            ", ".join(f"{point.arc_length:.6g}" for point in line.touchdown),
-            line.contact_length,
-            None if line.largest_force is None else line.largest_force.force,
-            None if line.largest_force is None else line.largest_force.element,
-            line.reaction,
-            line.submerged_weight,
-        )
-        for line in shown
-    )
-    return html_page("ContactResult", f"{summary}, {units}", html_table(headings, rows, len(series.depth) * lines))
+    _, columns, steps = _columns(series.steps(0, -(-SHOWN_ROWS // max(lines, 1))), "summary")
+    shown = {column.name: column for column in columns if column.name in _SHOWN}
+    labels = {name: quantity.label or name for name, quantity in LINES.items()}
+    headings = [labelled(labels.get(name, name), column.unit) for name, column in shown.items()]
+    values = (column.cut(0, steps).ravel().tolist() for column in shown.values())
+    table = html_table(headings, zip(*values, strict=True), len(series.depth) * lines)
+    return html_page("ContactResult", f"{summary}, {units}", table)
 
 
 def array_name(table: str, column: str) -> str:
