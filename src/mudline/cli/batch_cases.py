@@ -20,7 +20,7 @@ from mudline.basics.quantities import shown
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
 from mudline.cli.result_files import beside, result_files
-from mudline.cli.streams import UnwrittenError, View, counted, reason
+from mudline.cli.streams import UnwrittenError, View, counted, reason, refusing
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.results.cases import CASES, CaseSummary, case_summary
@@ -88,10 +88,8 @@ def check_positions(given: str | None) -> None:
     """Raise click.ClickException for a pattern with unknown fields, and for a missing file."""
     if given is None or Path(given).exists():
         return
-    try:
+    with refusing(ValueError, before=f"--positions {given}: not a pattern: "):
         names = {name for _, name, _, _ in Formatter().parse(given) if name is not None}
-    except ValueError as error:
-        raise click.UsageError(f"--positions {given}: not a pattern: {error}") from error
     if unknown := sorted(names - set(_FIELDS)):
         raise click.UsageError(f"--positions: {{{unknown[0]}}} is unknown: use {{name}} or {{folder}}")
     if not names:

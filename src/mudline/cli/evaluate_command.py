@@ -13,7 +13,7 @@ import click
 from click.core import ParameterSource
 
 from mudline.basics.quantities import csv_lines
-from mudline.basics.short_repr import listed_numbers
+from mudline.basics.short_repr import counted, listed_numbers
 from mudline.checks.verdict import errors_beside
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
@@ -21,7 +21,7 @@ from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation
 from mudline.cli.inputs import GivenDeck
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option, write_plot
 from mudline.cli.result_files import beside, require_library, result_files
-from mudline.cli.streams import Progress, View, counted, emit, emit_json, notify, notify_diagnostics, notify_some
+from mudline.cli.streams import Progress, View, emit, emit_json, notify, notify_diagnostics, notify_some, refusing
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
 from mudline.model.results.forms import FORMS, TABLES, Sink, plan_rows
@@ -142,10 +142,8 @@ def _evaluate(
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
     output, view = wanted.output, wanted.view
     comparison = read_file(against, lambda file: ResultComparison(file, evaluation)) if against else None
-    try:
+    with refusing(ValueError, before="--plot-elements: "):
         drawing = None if plot is None else PlotData.of_evaluation(evaluation, plot_elements)
-    except ValueError as error:
-        raise click.UsageError(f"--plot-elements: {error}") from error
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else wanted.form

@@ -11,7 +11,7 @@ import click
 
 from mudline.basics import files
 from mudline.basics.overwriting import claim
-from mudline.cli.streams import View
+from mudline.cli.streams import View, refusing
 
 Command = Callable[..., int]
 
@@ -199,10 +199,8 @@ diff = flag("--diff", help="Write nothing; print the changes; exit with 1 if the
 
 def form_of_file(path: str, forms: Collection[str]) -> str:
     """Return the form of a file to write, by its suffix; raises click.UsageError unless it is among `forms`."""
-    try:
+    with refusing(ValueError):
         return files.form_of_file(path, forms)
-    except ValueError as error:
-        raise click.UsageError(str(error)) from error
 
 
 class _OutputFile(click.types.StringParamType):

@@ -11,7 +11,7 @@ from pathlib import Path
 import click
 
 from mudline.basics.files import suffix_of
-from mudline.cli.streams import View, require, tracked, writing
+from mudline.cli.streams import View, refusing, require, tracked, writing
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import (
@@ -75,7 +75,5 @@ def _writer(path: Path, stack: ExitStack, view: View, contents: FileContent, *, 
     files = (path, *beside(path, [*contents.rows]).values())
     streams = [stack.enter_context(writing(file, synced=synced)) for file in files]
     output = ResultOutput(suffix_of(path), contents, streams, path.parent, stack, partial(tracked, view=view))
-    try:
+    with refusing(FormError, before=f"{path.as_posix()}: ", kind=click.ClickException):
         return output.writer()
-    except FormError as error:
-        raise click.ClickException(f"{path.as_posix()}: {error}") from error

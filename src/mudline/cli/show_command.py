@@ -28,9 +28,7 @@ if TYPE_CHECKING:
 
 @options.command("show")
 @options.flag("--sheet", help="Show only the sheet: a row for each run of elements with the same properties.")
-@options.output_option(
-    "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE", help="Write the sheet: .csv, .json, .xlsx."
-)
+@options.output(group=options.OUTPUT, metavar="FILE", help="Write the sheet: .csv, .json, .xlsx.")
 @options.output_format("text", "json", "csv", "xlsx")
 @takes_deck
 def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: str, view: View) -> int:

@@ -153,6 +153,17 @@ def naming(path: object, fault: str = "", kind: type[click.ClickException] = cli
 
 
 @contextmanager
+def refusing(
+    *kinds: type[Exception], before: str = "", kind: type[click.ClickException] = click.UsageError
+) -> Iterator[None]:
+    """End the command with the message of an error of these kinds, behind a text; as wrong usage, or another `kind`."""
+    try:
+        yield
+    except kinds as error:
+        raise kind(f"{before}{error}") from error
+
+
+@contextmanager
 def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
     """Open a file that is written in one step when the block ends; a failure ends the command.
 
