@@ -67,7 +67,7 @@ def beside(path: Path, tables: Sequence[str] = TABLES) -> dict[str, Path]:
 def write_tables(tables: ResultTables, path: Path) -> None:
     """Write tables into a file, or several. Raises click.ClickException as `result_files` does."""
     with ExitStack() as stack:
-        tables.write(_writer(path, stack, View(quiet=True), tables.contents, synced=True))
+        tables.write(partial(_writer, path, stack, View(quiet=True), synced=True))
 
 
 def _writer(path: Path, stack: ExitStack, view: View, contents: FileContent, *, synced: bool) -> Writer:

@@ -254,8 +254,7 @@ class SeriesSink:
 
     def finish(self, warnings: Sequence[ContactWarning] = ()) -> None:
         """Write the tables. Raises OSError."""
-        tables = series_tables(self._summary, warnings)
-        tables.write(self._open_writer(tables.contents))
+        series_tables(self._summary, warnings).write(self._open_writer)
 
 
 # --------------------------------------------------------------------------------------------------------------- tables

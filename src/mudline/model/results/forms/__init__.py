@@ -217,7 +217,8 @@ class ResultTables:
         rows = {name: len(columns[0].values) for name, columns in self.columns.items()}
         return FileContent(rows, self.units, self.format, self.more, array_name=lambda table, name: f"{table}_{name}")
 
-    def write(self, writer: Writer) -> None:
-        """Write the tables. Raises OSError."""
+    def write(self, open_writer: Callable[[FileContent], Writer]) -> None:
+        """Write the tables. Raises OSError, and what `open_writer` does."""
+        writer = open_writer(self.contents)
         writer.write(self.columns, 0, 1, {})
         writer.finish({})
