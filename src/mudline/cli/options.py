@@ -213,6 +213,8 @@ class _OutputFile(click.types.StringParamType):
         """Claim the file; raises OverwriteError."""
         if value == "-":
             return "" if self._prints else value
+        if not value and self._prints:
+            self.fail("give the name of a file, or - for standard output", param, ctx)
         if param is not None and not (ctx is not None and ctx.resilient_parsing):
             claim(value, param.opts[0])
         return value
