@@ -96,8 +96,7 @@ def html(result: ContactResult) -> str:
     lines = _table(result, "summary").rows
     _, columns, steps = _columns(series.steps(0, -(-SHOWN_ROWS // max(lines, 1))), "summary")
     shown = {column.name: column for column in columns if column.name in _SHOWN}
-    labels = {name: quantity.label or name for name, quantity in LINES.items()}
-    headings = [labelled(labels.get(name, name), column.unit) for name, column in shown.items()]
+    headings = [LINES[name].axis(units) if name in LINES else labelled(name, each.unit) for name, each in shown.items()]
     values = (column.cut(0, steps).ravel().tolist() for column in shown.values())
     table = html_table(headings, zip(*values, strict=True), len(series.depth) * lines)
     return html_page("ContactResult", f"{summary}, {units}", table)
