@@ -6,7 +6,7 @@ import csv
 import io
 import multiprocessing
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,8 @@ from mudline.cli import batch_cases, batch_command
 from mudline.cli.batch_cases import Order, named_cases
 from mudline.cli.inputs import Input
 from mudline.model.results.cases import CASES
+from mudline.model.results.forms import TABLES
+from mudline.model.results.series import SERIES
 from mudline.tools.running import executors, remembered
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
@@ -214,8 +216,8 @@ def test_folder_of_positions_is_as_that_of_the_decks(place: Place, folder: Path)
     assert rows("decks/far", "decks/near", "--positions", "at", code=1)["case"]["reason"] in (message, None)
 
 
-def results(*paths: str, form: str = "npz") -> list[str]:
-    return [case.result for case in named_cases([Input(path, path) for path in paths], form)[1]]
+def results(*paths: str, form: str = "npz", tables: Sequence[str] = TABLES) -> list[str]:
+    return [case.results[0] for case in named_cases([Input(path, path) for path in paths], form, tables)[1]]
 
 
 def test_results_are_named_as_the_decks_below_their_common_folder() -> None:
@@ -224,6 +226,8 @@ def test_results_are_named_as_the_decks_below_their_common_folder() -> None:
     assert results("c.keyxm", "C.keyx", "d.keyxm") == ["c.keyxm.npz", "C.keyx.npz", "d.npz"]
     assert results("c.keyxm", "c-nodes.keyxm", form="csv") == ["c.keyxm.csv", "c-nodes.keyxm.csv"]
     assert results("c.keyxm", "c-nodes.keyxm") == ["c.npz", "c-nodes.npz"]
+    assert results("c.keyxm", "c-totals.keyxm", form="csv") == ["c.csv", "c-totals.csv"]
+    assert results("c.keyxm", "c-totals.keyxm", form="csv", tables=SERIES) == ["c.keyxm.csv", "c-totals.keyxm.csv"]
     assert results("summary.keyxm", "e/summary.keyxm") == ["summary.keyxm.npz", "e/summary.npz"]
 
 
@@ -321,6 +325,17 @@ def test_deck_that_fails_now_has_no_old_results(place: Place) -> None:
     place(BAD_NUMBER, "decks/a.keyxm")
     outcome = again()
     assert (outcome.code, taken(outcome)) == (1, 1)
+    assert not [name for name in files() if name.startswith("a")]
+
+
+def test_deck_that_fails_now_has_no_old_totals(place: Place, folder: Path) -> None:
+    place(CLEAN, "decks/a.keyxm")
+    np.save(folder / "steps.npy", np.array([[[-0.1, 0.0, 0.0], [-0.1, 10.0, 0.0], [0.3, 20.0, 0.0]]] * 3))
+    options = ("decks", "--positions", "steps.npy", "--time-step", "0.5", "--summary-only", "--form", "csv")
+    assert batch(*options).code == 0
+    assert "a-totals.csv" in files()
+    place(BAD_NUMBER, "decks/a.keyxm")
+    assert batch(*options).code == 1
     assert not [name for name in files() if name.startswith("a")]
 
 

@@ -129,6 +129,14 @@ def test_folders_without_a_deck(folder: Path, place: Place) -> None:
     assert (ran.code, ran.out) == (1, "+ deck.keyxm: only in the second folder\n1 deck: 1 added\n")
 
 
+def test_a_deck_of_a_folder_that_the_configuration_excludes(place: Place) -> None:
+    for path in ("A/old.keyxm", "A/deck.keyxm", "B/old.keyxm", "B/deck.keyxm"):
+        place(CLEAN.replace("-0.1,", "-0.2,") if path == "B/old.keyxm" else CLEAN, path)
+    assert run("diff", "A", "B").code == 1
+    place('exclude = ["old*"]\n', "mudline.toml")
+    assert run("diff", "A", "B").out == "1 deck: 1 equal\n"
+
+
 @pytest.mark.usefixtures("folders")
 def test_a_folder_and_a_deck_are_not_compared() -> None:
     ran = run("diff", "old", "new/here.keyxm")

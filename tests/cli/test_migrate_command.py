@@ -45,6 +45,15 @@ def test_standard_input() -> None:
     assert list(Path().iterdir()) == []
 
 
+def test_standard_output(place: Place) -> None:
+    name = place(SAMPLE)
+    assert run("migrate", name, "-o", "-").out == MIGRATED
+    assert Path(name).read_text(encoding="utf-8") == SAMPLE
+    outcome = run("migrate", place(PROFILE), "-o", "-")
+    assert (outcome.code, outcome.out, "standard output has no folder: leave -o out" in outcome.err) == (1, "", True)
+    assert list(Path().iterdir()) == [Path(name)]
+
+
 def test_diff_writes_nothing(place: Place) -> None:
     name = place(PROFILE)
     outcome = run("migrate", "--diff", name)

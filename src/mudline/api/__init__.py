@@ -6,7 +6,7 @@ import errno
 import os
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain
 from pathlib import Path
 from types import NoneType
@@ -402,15 +402,11 @@ def decks_in(path: Paths, *, including: bool = False) -> list[Path]:
 
 
 def _decks_below(folder: Path, *, including: bool) -> list[Path]:
-    from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck  # noqa: PLC0415 - many name one file
+    from mudline.language.deck.searching import Search, is_in_any_form  # noqa: PLC0415 - many name one file
 
     own = Configured()
-
-    def wanted(file: str) -> bool:
-        taken = own.includes(file) if including else is_in_any_form(file)
-        return taken and not own.excludes(file) and may_be_deck(file)
-
-    return [Path(file) for _, file in Search(str(folder)).files(wanted)]
+    taken = partial(own.takes, wanted=own.includes if including else is_in_any_form)
+    return [Path(file) for _, file in Search(str(folder)).files(taken)]
 
 
 def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:

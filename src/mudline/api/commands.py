@@ -6,6 +6,7 @@ import errno
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import NoneType
@@ -15,6 +16,7 @@ from mudline.api import Deck, content_as, decks_in, given_deck, given_rules, giv
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import csv_lines
+from mudline.checks.configuration import Configured
 from mudline.checks.context import read_deck
 from mudline.checks.engine import naming_causes
 from mudline.language.deck.forms import KEYWORD, form_of
@@ -239,6 +241,8 @@ def diff(
 ) -> Comparison:
     """Return the differences in meaning between two decks or two folders, whatever their forms, layout and order.
 
+    Decks of folders that the configuration excludes are left out.
+
     Args:
         before: a deck, its file, or a folder, whose decks are compared with those of the same path below `after`.
         after: the second deck or folder; places and values that `before` lacks are "added".
@@ -268,8 +272,11 @@ def diff(
     if len(folders) == 1:
         raise ValueError(f"{folders[0]} is a folder, and the other one is not: give two decks or two folders")
     if folders:
-        words: dict[str, Any] = {"strict": strict, "units": units, "gitignore": gitignore}
-        decks = list(compared.compare_folders(folders[0], folders[1], tolerance, **words))
+        from mudline.language.deck.searching import Search, is_in_any_form  # noqa: PLC0415 - as above
+
+        old, new = (Search(folder, gitignore) for folder in folders)
+        taken = partial(Configured().takes, wanted=is_in_any_form)
+        decks = [*compared.compare_folders(old, new, taken, tolerance, strict=strict, units=units)]
         if not decks:
             raise FileNotFoundError(errno.ENOENT, "no deck in these folders", " and ".join(folders))
         differences = [each for deck in decks for each in deck.comparison.differences]

@@ -308,6 +308,12 @@ class Configured:
 
         return is_in_any_form(path) or self.of(path).lists("include", path)
 
+    def takes(self, path: str, wanted: Callable[[str], bool]) -> bool:
+        """Return True if a file of a searched directory is a deck that is `wanted` and not excluded."""
+        from mudline.language.deck.searching import may_be_deck  # noqa: PLC0415 - as above
+
+        return wanted(path) and not self.excludes(path) and may_be_deck(path)
+
     def encoding(self, path: str) -> str:
         """Return the encoding that the file's configuration gives, "" if it gives none."""
         return str(self.of(path).values.get(ENCODING, ""))

@@ -11,7 +11,7 @@ import numpy as np
 from mudline.basics.quantities import shown
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.plots import Plot, plot_option, write_plot
-from mudline.cli.streams import emit, notify
+from mudline.cli.streams import emit, notify, refusing
 from mudline.editing.backbone_block import COARSEST, FINEST, backbone
 from mudline.language.keywords.writer import block_lines
 from mudline.model.curves.backbones import MODELS, Backbone, Soil
@@ -76,10 +76,8 @@ def command(*, model: str, plot: Plot, depth: float | None, extend: bool, **give
         end = f"{model} ends at z/D = {shown(published)}: {MODELS[model].range_note}"
         notify(f"{end}. Give --extend to go on to {depth:g}")
         return FOUND
-    try:
+    with refusing(ValueError, before="--"):
         curve, block = backbone(model, depth=depth, extend=extend, **given)
-    except ValueError as error:
-        raise click.UsageError(f"--{error}") from error
     if plot is not None:
         smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * curve.ratios[-1]
         soil = Soil(given["diameter"], given["strength"][0], given["strength"][1], given["weight"])

@@ -19,13 +19,13 @@ from mudline.basics.files import recording_looks
 from mudline.basics.quantities import shown
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
-from mudline.cli.result_files import beside, result_files, write_tables
-from mudline.cli.streams import UnwrittenError, View, counted, reason
+from mudline.cli.result_files import beside, result_files
+from mudline.cli.streams import UnwrittenError, View, counted, reason, refusing
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.results.cases import CASES, CaseSummary, case_summary
-from mudline.model.results.forms import FORMS
-from mudline.model.results.series import SERIES, SeriesSummary, series_tables
+from mudline.model.results.forms import TABLES
+from mudline.model.results.series import SeriesSummary
 from mudline.model.results.warnings import ContactWarning, ContactWatch
 from mudline.tools.running.remembered import state
 
@@ -43,12 +43,12 @@ class BatchCase:
     Attributes:
         file: the deck.
         inside: its path below the common folder of all decks, with `/`.
-        result: the file of its results below the folder of all results, with `/`.
+        results: the files of its results below the folder of all results, with `/`; the elements first.
     """
 
     file: Input
     inside: str
-    result: str
+    results: tuple[str, ...]
 
     @property
     def name(self) -> str:
@@ -56,7 +56,7 @@ class BatchCase:
         return PurePosixPath(self.inside).stem
 
 
-def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[BatchCase]]:
+def named_cases(files: Sequence[Input], form: str, tables: Sequence[str] = TABLES) -> tuple[str, list[BatchCase]]:
     """Return the common folder of the decks, and a case for each deck.
 
     A result file has the name of the deck without its suffix. Decks that differ only in their suffix keep it.
@@ -68,19 +68,17 @@ def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[BatchCase]
         raise click.UsageError("the decks have no common folder: run mudline batch for each drive") from error
     inside = [Path(os.path.relpath(path, common)).as_posix() for path in paths]
     plain = [str(PurePosixPath(name).with_suffix("")) for name in inside]
-    counts = Counter(name.casefold() for stem in plain for name in (stem, *_others(stem, form)))
-    counts.update([SUMMARY])
-    stems = [
-        stem if all(counts[name.casefold()] == 1 for name in (stem, *_others(stem, form))) else path
-        for stem, path in zip(plain, inside, strict=True)
-    ]
+    short, whole = ([_results(f"{stem}.{form}", tables) for stem in stems] for stems in (plain, inside))
+    counts = Counter(result.casefold() for results in short for result in results)
+    counts.update([f"{SUMMARY}.{form}"])
     return common, [
-        BatchCase(file, name, f"{stem}.{form}") for file, name, stem in zip(files, inside, stems, strict=True)
+        BatchCase(file, name, results if all(counts[result.casefold()] == 1 for result in results) else longer)
+        for file, name, results, longer in zip(files, inside, short, whole, strict=True)
     ]
 
 
-def _others(stem: str, form: str) -> list[str]:
-    return [f"{stem}-{table}" for table in FORMS[form].beside]
+def _results(path: str, tables: Sequence[str]) -> tuple[str, ...]:
+    return (path, *(file.as_posix() for file in beside(Path(path), tables).values()))
 
 
 # ------------------------------------------------------------------------------------------------------ positions
@@ -90,10 +88,8 @@ def check_positions(given: str | None) -> None:
     """Raise click.ClickException for a pattern with unknown fields, and for a missing file."""
     if given is None or Path(given).exists():
         return
-    try:
+    with refusing(ValueError, before=f"--positions {given}: not a pattern: "):
         names = {name for _, name, _, _ in Formatter().parse(given) if name is not None}
-    except ValueError as error:
-        raise click.UsageError(f"--positions {given}: not a pattern: {error}") from error
     if unknown := sorted(names - set(_FIELDS)):
         raise click.UsageError(f"--positions: {{{unknown[0]}}} is unknown: use {{name}} or {{folder}}")
     if not names:
@@ -187,9 +183,9 @@ def evaluate_case(order: Order) -> Done:
             why = reason(error)
         else:
             return Done(row, [(each.diagnostic.code, str(each)) for each in warnings], written, list(looked_at))
-    for path in results_of(order.case, order.output):
+    for result in order.case.results:
         with suppress(OSError):
-            path.unlink()
+            (order.output / result).unlink()
     return failed(name, why)
 
 
@@ -198,33 +194,21 @@ def failed(name: str, why: str) -> Done:
     return Done(CaseSummary(name, "failed", why))
 
 
-def results_of(case: BatchCase, output: Path) -> list[Path]:
-    """Return the result files that a deck has below a folder if it does not fail."""
-    path = output / case.result
-    return [path, *beside(path).values()]
-
-
 def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], dict[str, str]]:
     """Return row, warnings, states of the result files; raises DeckError, click.ClickException, OSError."""
     file = order.case.file
     deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
     evaluation = order.inputs.evaluation(deck)
-    path = order.output / order.case.result
+    path = order.output / order.case.results[0]
     path.parent.mkdir(parents=True, exist_ok=True)
     watch = ContactWatch(evaluation)
-    if order.inputs.summary_only:
-        series = SeriesSummary(evaluation, *SERIES, "case")
-        evaluation.run([series, watch])
-        written = [path, *write_tables(series_tables(series, watch.warnings()), path).values()]
-    else:
-        series = SeriesSummary(evaluation, "case")
-        with result_files(evaluation, path, View(quiet=True), synced=False) as sink:
-            evaluation.run([series, watch, sink])
-            sink.finish(watch.warnings())
-        written = [path, *beside(path).values()]
-    warnings = watch.warnings()
-    states = {result.relative_to(order.output).as_posix(): state(str(result)) for result in written}
-    return case_summary(series, file.name, warnings, order.case.result), warnings, states
+    series, only = SeriesSummary(evaluation, "case"), order.inputs.summary_only
+    with result_files(evaluation, path, View(quiet=True), summary_only=only, synced=False) as sink:
+        evaluation.run([series, watch, sink])
+        warnings = watch.warnings()
+        sink.finish(warnings)
+    states = {result: state(str(order.output / result)) for result in order.case.results}
+    return case_summary(series, file.name, warnings, order.case.results[0]), warnings, states
 
 
 def _reason(diagnostics: Sequence[Diagnostic], name: str) -> str:

@@ -28,7 +28,6 @@ from mudline.cli.batch_cases import (
     named_cases,
     positions_of,
     print_cases,
-    results_of,
 )
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, many_files, takes_decks
@@ -105,10 +104,10 @@ def command(
     for file in selected.files:  # a file may be given by several names
         once.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
     selected.files = list(once.values())
-    common, cases = named_cases(selected.files, form)
+    common, cases = named_cases(selected.files, form, inputs.tables)
     folder = Path(output)
     make_folder(folder)
-    for path in (_summary_path(folder), *(path for case in cases for path in results_of(case, folder))):
+    for path in (_summary_path(folder), *(folder / result for case in cases for result in case.results)):
         claim(path)
     memory = Memory(folder / _MEMORY, repr((inputs, decks.units, form)))
     order = Order(cases[0], b"", inputs, folder, decks.units)
@@ -165,7 +164,7 @@ def _evaluated(
         files = [path for path in (positions, given.elements) if path]
         for path in files:
             reading(path)
-        key = memory.key(file.name, case.result, data, *files)
+        key = memory.key(file.name, case.results[0], data, *files)
         if not fresh and (known := _known(memory, key, file, first.output)):
             return (file, key, (), known), None
         order = first._replace(case=case, data=data, inputs=replace(given, positions=positions))
@@ -187,7 +186,7 @@ def _evaluated(
                     done[file] = known
                     taken += not known.row.failed
     except BaseException:
-        for place in {(first.output / case.result).parent for case in cases}:
+        for place in {(first.output / case.results[0]).parent for case in cases}:
             remove_left(str(place))  # half-written files of processes that were ended
         raise
     finally:

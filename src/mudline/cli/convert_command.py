@@ -9,7 +9,7 @@ import click
 import numpy as np
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import STDIN, GivenDeck, require_text, takes_deck
+from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.streams import View, emit, notify, require, write_text
 from mudline.language.codes.lines import SYN001
 from mudline.language.deck.forms import SUFFIXES, form_names, form_of
@@ -29,7 +29,7 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 
 
 @options.command("convert")
-@options.output(help="Write to this file; without it, or with -, to standard output.")
+@options.output(type=options.OUTPUT_TEXT, help="Write to this file; without it, or with -, to standard output.")
 @options.option("--from", "source", type=_SOURCES, help="Read DECK in this format, not in that of its suffix.")
 @options.option("--to", "target", type=_FORMS, help="Write in this format, not in that of the suffix of OUT.")
 @options.flag("--sorted", "in_order", help="Write curves with their points sorted by ratio.")
@@ -80,7 +80,7 @@ def command(
         for name in sort_curves(read):
             notify(f"curve {name} keeps its order: a ratio in it is an equation")
     text = dump(read, form)
-    if output is None or output == STDIN:
+    if not output:
         emit([text])
         return DONE
     path = Path(output)
@@ -128,7 +128,7 @@ def _bed(
     deck: GivenDeck, form: str, output: str | None, within: float | None, origin: tuple[float, float, float], view: View
 ) -> int:
     """Write the deck of a seabed and its file of points. Raises DeckError, click.ClickException."""
-    if output is None or PurePath(output).suffix.lower() not in {".keyxm", ".keyx", ".das"}:
+    if not output or PurePath(output).suffix.lower() not in {".keyxm", ".keyx", ".das"}:
         raise click.UsageError("a seabed in metres becomes two files: give -o OUT.keyxm")
     if within is None or not 0.0 < within < math.inf:
         raise click.UsageError("a seabed is thinned: give its largest error, as in --within 0.05")
@@ -187,7 +187,7 @@ def _require_values(deck: Deck) -> None:
 
 
 def _form_of_output(output: str | None) -> str:
-    if output is None or output == STDIN:
+    if not output:
         raise click.UsageError("unknown format to write: give -o OUT with a suffix, or --to")
     form, suffix = form_of(output), PurePath(output).suffix.lower()
     if form == "keyword" and suffix not in SUFFIXES:

@@ -13,7 +13,7 @@ from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.plots import Plot, plot_option, write_plot
-from mudline.cli.streams import View, emit, emit_json, notify
+from mudline.cli.streams import View, emit, emit_json, notify, refusing
 from mudline.model.results.curve_rows import curve_rows, diameters_on, used_curves
 from mudline.model.results.summary import followers
 from mudline.model.scene.curves import ENDS, OF_CURRENT, OF_SEABED
@@ -63,10 +63,8 @@ def command(
     given = deck.load()
     with naming_causes(given):
         scene = resolve(given).require()
-    try:
+    with refusing(ValueError):
         rows = curve_rows(scene, ratios, weight)
-    except ValueError as error:
-        raise click.UsageError(str(error)) from error
     write_plot(plot, lambda plots: plots.curves.curves_figure(rows, scene.units))
     if output_format == "json":
         emit_json(rows)

@@ -12,34 +12,37 @@ from typing import NamedTuple
 import click
 from click.core import ParameterSource
 
-from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import csv_lines
-from mudline.basics.short_repr import listed_numbers
+from mudline.basics.short_repr import counted, listed_numbers
 from mudline.checks.verdict import errors_beside
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option, write_plot
-from mudline.cli.result_files import beside, require_library, result_files, write_tables
-from mudline.cli.streams import Progress, View, counted, emit, emit_json, notify, notify_diagnostics
+from mudline.cli.result_files import beside, require_library, result_files
+from mudline.cli.streams import Progress, View, emit, emit_json, notify, notify_diagnostics, notify_some, refusing
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
-from mudline.model.results.forms import FORMS, Sink, plan_rows
-from mudline.model.results.forms.text import text_writer, write_text
+from mudline.model.results.forms import FORMS, TABLES, Sink, plan_rows
+from mudline.model.results.forms.text import text_writer
 from mudline.model.results.plot_data import PlotData
-from mudline.model.results.series import SERIES, SeriesSummary, series_tables
+from mudline.model.results.series import SERIES, SeriesSink, SeriesSummary
 from mudline.model.results.warnings import ContactWarning, ContactWatch, caption
 
 
 class Wanted(NamedTuple):
-    """Destination of results: the file `output`, else standard output, in `form`; rows of `table`, or `every` row."""
+    """Destination of results: the file `output`, else standard output, in `form`; rows of `table`, or `every` row.
+
+    Of a long series only the summary with `summary_only`.
+    """
 
     output: str | None
     form: str
     table: str
     view: View
     every: bool
+    summary_only: bool
 
 
 @options.command("evaluate")
@@ -60,7 +63,7 @@ class Wanted(NamedTuple):
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @options.output_option(
     "--table",
-    type=click.Choice(["elements", "nodes", "summary"]),
+    type=click.Choice(TABLES),
     default="elements",
     show_default=True,
     help="Show these rows in text and CSV on standard output; a line at a step is a row of the summary. Without this "
@@ -112,11 +115,8 @@ def command(
         return DONE
     source = click.get_current_context().get_parameter_source("table")
     every = table == "elements" and source is not ParameterSource.DEFAULT
-    evaluation, wanted = inputs.evaluation(deck), Wanted(output, output_format, table, view, every)
-    if inputs.summary_only:
-        warnings = _evaluate_series(evaluation, wanted)
-    else:
-        warnings = _evaluate_one(evaluation, wanted, plot, plot_elements, against)
+    evaluation, wanted = inputs.evaluation(deck), Wanted(output, output_format, table, view, every, inputs.summary_only)
+    warnings = _evaluate(evaluation, wanted, plot, plot_elements, against)
     errors = errors_beside(deck)
     if errors:
         notify(f"{deck.file} has {counted(len(errors), 'error')} in spite of which it can be evaluated:")
@@ -136,24 +136,26 @@ def _show_plan(prepared: Prepared, form: str, view: View) -> None:
         print_plan(model.plan, view)
 
 
-def _evaluate_one(
+def _evaluate(
     evaluation: Evaluation, wanted: Wanted, plot: Plot, plot_elements: tuple[int, ...], against: str | None
 ) -> list[ContactWarning]:
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
     output, view = wanted.output, wanted.view
     comparison = read_file(against, lambda file: ResultComparison(file, evaluation)) if against else None
-    try:
+    with refusing(ValueError, before="--plot-elements: "):
         drawing = None if plot is None else PlotData.of_evaluation(evaluation, plot_elements)
-    except ValueError as error:
-        raise click.UsageError(f"--plot-elements: {error}") from error
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else wanted.form
-    screen = Screen(evaluation, wanted.table, view, every=wanted.every) if shown == "text" else None
+    screen: Screen | SeriesSummary | None = None
+    if shown == "text" and wanted.summary_only:
+        screen = SeriesSummary(evaluation, "totals", "summary")
+    elif shown == "text":
+        screen = Screen(evaluation, wanted.table, view, every=wanted.every)
     slow, watch = SeriesSummary(evaluation, "suction"), ContactWatch(evaluation)
     with _sink(evaluation, comparison, wanted) as sink:
         consumers = [comparison, drawing, slow, watch, screen, sink]
-        _run(evaluation, consumers, view, bar=shown in {"", "text"})
+        _run(evaluation, consumers, view, bar=wanted.summary_only or shown in {"", "text"})
         warnings = watch.warnings()
         if sink is not None:
             sink.finish(warnings)
@@ -161,44 +163,29 @@ def _evaluate_one(
         doubt = caption(warnings)
         write_plot(plot, lambda plots: plots.evaluation_figure(drawing, doubt), view)
     if not view.quiet:
-        _notify_after(watch, slow, output, beside(Path(output)) if output else {})
-    if screen is not None:
+        tables = SERIES if wanted.summary_only else TABLES
+        _notify_after(watch, slow, output, beside(Path(output), tables) if output else {})
+    if isinstance(screen, SeriesSummary):
+        print_series(screen, view)
+    elif screen is not None:
         print_evaluation(screen, view)
     if comparison is not None and wanted.form == "text":
         print_comparison(comparison, view)
     return warnings
 
 
-def _evaluate_series(evaluation: Evaluation, wanted: Wanted) -> list[ContactWarning]:
-    """Summarise a series, print or write the summary; returns what is doubtful. Raises what `_evaluate_one` does."""
-    output, form, table, view, _ = wanted
-    if not view.quiet:
-        _notify_before(evaluation, None)
-    summary, watch = SeriesSummary(evaluation, *SERIES, "suction"), ContactWatch(evaluation)
-    _run(evaluation, [summary, watch], view, bar=True)
-    warnings = watch.warnings()
-    tables = series_tables(summary, warnings)
-    written: Mapping[str, Path] = {}
-    if output:
-        written = write_tables(tables, Path(output))
-    elif form != "text":
-        write_text(tables, form, emit, table)
-    if not view.quiet:
-        _notify_after(watch, summary, output, written)
-    if not output and form == "text":
-        print_series(summary, view)
-    return warnings
-
-
 def _sink(
     evaluation: Evaluation, comparison: ResultComparison | None, wanted: Wanted
-) -> AbstractContextManager[Sink | None]:
+) -> AbstractContextManager[Sink | SeriesSink | None]:
     """Open the destination of the rows: files, standard output, or none."""
     if wanted.output:
-        return result_files(evaluation, Path(wanted.output), wanted.view, comparison)
+        path, only = Path(wanted.output), wanted.summary_only
+        return result_files(evaluation, path, wanted.view, comparison, summary_only=only)
     if wanted.form == "text":
         return nullcontext()
     writer = partial(text_writer, wanted.form, writes={wanted.table: emit})
+    if wanted.summary_only:
+        return nullcontext(SeriesSink(evaluation, writer))
     return nullcontext(Sink(evaluation, wanted.form, writer, comparison, wanted.table))
 
 
@@ -234,10 +221,7 @@ def _notify_before(evaluation: Evaluation, comparison: ResultComparison | None) 
 def _notify_after(watch: ContactWatch, series: SeriesSummary, output: str | None, others: Mapping[str, Path]) -> None:
     """Report what is doubtful in the results, where suction is less than its power law gives, and the files."""
     warnings, evaluation = watch.warnings(), series.evaluation
-    for one in warnings[:SHOWN_ROWS]:
-        notify(f"warning: {one}")
-    if len(warnings) > SHOWN_ROWS:
-        notify(f"{len(warnings) - SHOWN_ROWS} more warnings: JSON has all")
+    notify_some([f"warning: {one}" for one in warnings], "{} more warnings: JSON has all")
     if note := watch.note():
         notify(note)
     number = series.number(series.of("suction", "slow").largest.peak())

@@ -19,6 +19,8 @@ from mudline.cli.streams import naming
 from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
+from mudline.model.results.forms import TABLES
+from mudline.model.results.series import SERIES
 from mudline.model.scene.csv_file import read_external
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.positions import COLUMNS
@@ -48,6 +50,11 @@ class EvaluateInputs:
             raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
         if self.summary_only and self.positions is None:
             raise click.UsageError("--summary-only is for time steps: give a series with --positions")
+
+    @property
+    def tables(self) -> Sequence[str]:
+        """Names of the tables of the results."""
+        return SERIES if self.summary_only else TABLES
 
     def scene(self, deck: Deck) -> Scene:
         """Return the scene of a deck; raises DeckError with the causes that prevent evaluation."""

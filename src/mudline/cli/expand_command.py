@@ -7,11 +7,10 @@ from pathlib import Path
 import click
 
 from mudline.basics.display import DisplayTable, text
-from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import View, emit, make_folder, notify, write_bytes, write_text
+from mudline.cli.streams import View, emit, make_folder, notify, notify_some, write_bytes, write_text
 from mudline.editing.variations.files import MANIFEST, conflicts, lacking, manifest_text
 from mudline.editing.variations.planning import plan
 
@@ -21,6 +20,7 @@ _COLUMNS = (
     text("values", lambda deck: ", ".join(f"{name}={value}" for name, value in deck.values.items())),
 )
 _NOT_COPIED = "{}: this file, which the deck names, is not copied: put it next to the new decks"
+_MORE = "and {} more of the same"
 
 
 @options.command("expand")
@@ -42,9 +42,9 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
     planned = plan(deck.load())
     for note in planned.notes:
         notify(note)
-    _notify_some([] if output is None else [_NOT_COPIED.format(name) for name in lacking(Path(output), planned)])
+    notify_some([] if output is None else [_NOT_COPIED.format(name) for name in lacking(Path(output), planned)], _MORE)
     blocked = [] if output is None else conflicts(Path(output), planned, force=force)
-    _notify_some(blocked)
+    notify_some(blocked, _MORE)
     if output is not None and not dry_run:
         if blocked:
             raise click.ClickException("nothing is written")
@@ -65,10 +65,3 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
         printer.table(DisplayTable("Decks", _COLUMNS, planned.decks))
         printer.line(counted(len(planned.decks), "deck"))
     return DONE
-
-
-def _notify_some(messages: list[str]) -> None:
-    for message in messages[:SHOWN_ROWS]:
-        notify(message)
-    if len(messages) > SHOWN_ROWS:
-        notify(f"and {len(messages) - SHOWN_ROWS} more of the same")

@@ -19,7 +19,7 @@ from mudline.checks.settings import Settings
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
-from mudline.cli.streams import Progress, View, counted, notify, reason, require
+from mudline.cli.streams import Progress, View, counted, naming, notify, refusing, require
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.archive.rows import Rows, rows_of
 
@@ -50,7 +50,7 @@ def command(
     inputs = decks.collect(is_in_any_form)
     from mudline.tools.archive.updating import LOCK, Archive, ArchiveError, check_folder  # noqa: PLC0415 - an extra
 
-    try:
+    with refusing(ArchiveError, kind=click.ClickException), naming(output, "cannot be written: "):
         folder = Path(output)
         if any(_is_inside(path, folder) for path in decks.paths):
             raise click.UsageError(f"-o {output}: an archive is a folder outside of the decks")
@@ -62,10 +62,6 @@ def command(
         with alone_at(folder / LOCK, waiting, made=True), closing(Archive(folder)) as archive:
             seen = _index(inputs, settings, archive, view, jobs)
             archive.remove_gone(seen, searched, everywhere=prune)
-    except ArchiveError as error:
-        raise click.ClickException(str(error)) from error
-    except OSError as error:
-        raise click.ClickException(f"{output}: cannot be written: {reason(error)}") from error
     counts = archive.counts
     words = ", ".join(f"{counts[name]} {name}" for name in ("new", "changed", "unchanged", "gone") if counts[name])
     total = counted(counts.total() - counts["gone"], "deck")

@@ -25,7 +25,7 @@ from mudline.cli import WRONG_USAGE, options
 from mudline.cli.streams import Progress, naming, notify, notify_diagnostics, reason
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
-from mudline.language.deck.searching import Search, is_deck, is_key_file, may_be_deck
+from mudline.language.deck.searching import Search, is_deck, is_key_file
 from mudline.language.diagnostics import DeckError
 from mudline.tools.running.executors import Crash, many
 
@@ -246,7 +246,7 @@ class GivenDecks(NamedTuple):
         own, inputs, files = configured or Configured(), Inputs(), list[Input]()
 
         def taken(path: str) -> bool:
-            is_taken = wanted(path) and not own.excludes(path) and may_be_deck(path)
+            is_taken = own.takes(path, wanted)
             if not is_taken and skipped is not None:
                 skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
             return is_taken

@@ -19,7 +19,7 @@ from mudline.checks.configuration import CallerSettings, Configuration, Configur
 from mudline.checks.report import FileReport
 from mudline.cli.inputs import Input, Inputs, many_files
 from mudline.cli.lint_report import LintReport
-from mudline.cli.streams import Progress, View, counted, naming, notify, write_text
+from mudline.cli.streams import Progress, View, counted, naming, notify, refusing, write_text
 from mudline.language.deck.forms import form_of
 from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
 from mudline.tools.running.remembered import Memory
@@ -56,10 +56,8 @@ def checked_settings(config: str | None, given: CallerSettings, fixing: str = "n
     from mudline.checks.settings import Settings  # noqa: PLC0415 - as above
 
     settings = Settings(Configured(config, isolated, code_fault), given, Fixing(fixing))
-    try:
+    with refusing(UnknownRule):
         settings.merged(Configuration())
-    except UnknownRule as error:
-        raise click.UsageError(str(error)) from error
     return settings
 
 

@@ -116,7 +116,8 @@ def run(arguments: Sequence[str]) -> int:
         closed = isinstance(error, BrokenPipeError) or (os.name == "nt" and error.errno == errno.EINVAL)
         if not closed:
             with suppress(OSError):  # standard error may be full too
-                notify(f"the output cannot be written: {reason(error)}")
+                what = f"{error.filename}:" if error.filename else "the output"
+                notify(f"{what} cannot be written: {reason(error)}")
         streams.drop()
         return CLOSED_PIPE if closed else WRONG_USAGE
     return code

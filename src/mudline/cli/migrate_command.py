@@ -20,7 +20,7 @@ from mudline.language.deck.loading import load_bytes
 
 
 @options.command("migrate")
-@options.output(help="Write to this file instead of the deck itself; for one deck only.")
+@options.output(type=options.OUTPUT_TEXT, help="Write to this file instead of the deck itself; for one deck only.")
 @options.flag("--diff", help="Print what would change, and write nothing.")
 @options.flag(
     "--verify",
@@ -49,7 +49,7 @@ def command(*, decks: GivenDecks, output: str | None, diff: bool, proved: bool, 
     for file, data, made in each_deck(inputs, work, progress):
         progress.hide()
         given = file.path if output is None else output
-        path = None if given is None else Path(given)
+        path = Path(given) if given else None
         code = max(code, FOUND if made is None else _deliver(inputs, file, data, *made, path, view=view, diff=diff))
     return max(inputs.code, code)
 
@@ -72,8 +72,9 @@ def _deliver(
         return DONE
     if path is None:
         if result.files:
-            why = "its profile needs a file of its own, and standard input has no folder"
-            notify(f"{file.name}: left unchanged: {why}: give the deck as a file")
+            stream, advice = ("input", "give the deck as a file") if file.path is None else ("output", "leave -o out")
+            why = f"its profile needs a file of its own, and standard {stream} has no folder"
+            notify(f"{file.name}: left unchanged: {why}: {advice}")
             return FOUND
         emit_deck(new)
         return DONE

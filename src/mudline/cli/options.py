@@ -11,7 +11,7 @@ import click
 
 from mudline.basics import files
 from mudline.basics.overwriting import claim
-from mudline.cli.streams import View
+from mudline.cli.streams import View, refusing
 
 Command = Callable[..., int]
 
@@ -199,23 +199,28 @@ diff = flag("--diff", help="Write nothing; print the changes; exit with 1 if the
 
 def form_of_file(path: str, forms: Collection[str]) -> str:
     """Return the form of a file to write, by its suffix; raises click.UsageError unless it is among `forms`."""
-    try:
+    with refusing(ValueError):
         return files.form_of_file(path, forms)
-    except ValueError as error:
-        raise click.UsageError(str(error)) from error
 
 
 class _OutputFile(click.types.StringParamType):
-    """File that an option writes; - is standard output."""
+    """File that an option writes; of a command that `prints` one text - is standard output, which becomes ""."""
+
+    def __init__(self, *, prints: bool = False) -> None:
+        self._prints = prints
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Claim the file; raises OverwriteError."""
-        if value != "-" and param is not None and not (ctx is not None and ctx.resilient_parsing):
+        if value == "-":
+            return "" if self._prints else value
+        if not value and self._prints:
+            self.fail("give the name of a file, or - for standard output", param, ctx)
+        if param is not None and not (ctx is not None and ctx.resilient_parsing):
             claim(value, param.opts[0])
         return value
 
 
-OUTPUT_FILE = _OutputFile()
+OUTPUT_FILE, OUTPUT_TEXT = _OutputFile(), _OutputFile(prints=True)
 output = partial(option, "-o", "--output", type=OUTPUT_FILE, metavar="OUT")
 """Decorator of `-o`, with the help of a command."""
 

@@ -15,17 +15,16 @@ from mudline.checks.engine import LintSettings
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDecks, Input, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
-from mudline.cli.streams import Progress, View, emit_json, require, write_text
+from mudline.cli.streams import Progress, View, emit_json, refusing, require, write_text
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, DeckFile, Look, LookError, PageHead
 from mudline.tools.reporting.pages import Pages, Wanted, make_page
 
 
 @options.command("report")
-@options.output_option(
-    "-o",
-    "--output",
-    type=options.OUTPUT_FILE,
+@options.output(
+    group=options.OUTPUT,
+    type=options.OUTPUT_TEXT,
     metavar="OUT.html",
     help="Write the page; for several decks or a folder the index, with the pages in a folder next to it.",
 )
@@ -76,7 +75,7 @@ def command(
     names = _sections(sections)
     document = PageHead(**head, fields=tuple(map(_field, fields)))
     html = output_format == "html"
-    if html and output is None:
+    if html and not output:
         raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
     if html:
         require("report", "report", "jinja2", "matplotlib")
@@ -93,16 +92,14 @@ def command(
         own = settings.of(file.path or file.name)
         return file, (DeckFile(file.read(), file.name, file.folder), own, (names, document, look, rest_shape))
 
-    try:
-        with closing(many_files(inputs, prepared, make_page, Progress(len(inputs.files), view), jobs=jobs)) as results:
-            for file, page in results:
-                if page is not None:
-                    pages.add(page, file.name)
-                    contents += [] if html else [page[0]]
+    results = many_files(inputs, prepared, make_page, Progress(len(inputs.files), view), jobs=jobs)
+    with refusing(LookError, kind=click.ClickException), closing(results):
+        for file, page in results:
+            if page is not None:
+                pages.add(page, file.name)
+                contents += [] if html else [page[0]]
         if look is not None and pages.rows:
             pages.finish(look)
-    except LookError as error:
-        raise click.ClickException(str(error)) from error
     if not html:
         emit_json({"reports": contents}, output)
     elif pages.rows and pages.index is not None:

@@ -11,11 +11,12 @@ from pathlib import Path
 import click
 
 from mudline.basics.files import suffix_of
-from mudline.cli.streams import View, require, tracked, writing
+from mudline.cli.streams import View, refusing, require, tracked, writing
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import (
     FORMS,
+    TABLES,
     FileContent,
     FormError,
     ResultOutput,
@@ -23,6 +24,7 @@ from mudline.model.results.forms import (
     Sink,
     Writer,
 )
+from mudline.model.results.series import SeriesSink
 
 
 def is_installed(form: str) -> bool:
@@ -43,39 +45,35 @@ def result_files(
     view: View,
     comparison: ResultComparison | None = None,
     *,
+    summary_only: bool = False,
     synced: bool = True,
-) -> Iterator[Sink]:
+) -> Iterator[Sink | SeriesSink]:
     """Open the result file of an evaluation by its suffix, or several files; they appear only when all is written.
 
     Files whose digest is recorded need not be `synced`, as a lost file is recognised by it. Raises click.ClickException
     if the form has no place for all rows.
     """
     with ExitStack() as stack:
-        yield Sink(evaluation, suffix_of(path), partial(_writer, path, stack, view, synced=synced), comparison)
+        writer = partial(_writer, path, stack, view, synced=synced)
+        yield SeriesSink(evaluation, writer) if summary_only else Sink(evaluation, suffix_of(path), writer, comparison)
 
 
-def beside(path: Path, tables: Sequence[str] = ("nodes", "summary")) -> dict[str, Path]:
-    """Return the files of further tables next to that of the elements, by their names; empty if one file holds all."""
-    separate = FORMS[suffix_of(path)].beside
-    return {table: path.with_name(f"{path.stem}-{table}{path.suffix}") for table in tables} if separate else {}
+def beside(path: Path, tables: Sequence[str] = TABLES) -> dict[str, Path]:
+    """Return the files of all tables but the first next to its file, by their names; empty if one file holds all."""
+    further = tables[1:] if FORMS[suffix_of(path)].separate else ()
+    return {table: path.with_name(f"{path.stem}-{table}{path.suffix}") for table in further}
 
 
-def write_tables(tables: ResultTables, path: Path) -> dict[str, Path]:
-    """Write tables into a file, or several. Return the further files by the names of their tables.
-
-    Raises click.ClickException as `result_files` does.
-    """
+def write_tables(tables: ResultTables, path: Path) -> None:
+    """Write tables into a file, or several. Raises click.ClickException as `result_files` does."""
     with ExitStack() as stack:
-        tables.write(_writer(path, stack, View(quiet=True), tables.contents, synced=True))
-    return beside(path, [*tables.contents.rows][1:])
+        tables.write(partial(_writer, path, stack, View(quiet=True), synced=True))
 
 
 def _writer(path: Path, stack: ExitStack, view: View, contents: FileContent, *, synced: bool) -> Writer:
     """Open a file and further files next to it, which `stack` closes, and return their writer."""
-    files = (path, *beside(path, [*contents.rows][1:]).values())
+    files = (path, *beside(path, [*contents.rows]).values())
     streams = [stack.enter_context(writing(file, synced=synced)) for file in files]
     output = ResultOutput(suffix_of(path), contents, streams, path.parent, stack, partial(tracked, view=view))
-    try:
+    with refusing(FormError, before=f"{path.as_posix()}: ", kind=click.ClickException):
         return output.writer()
-    except FormError as error:
-        raise click.ClickException(f"{path.as_posix()}: {error}") from error

@@ -15,7 +15,7 @@ from mudline.checks.pages import origin
 from mudline.checks.registry import UnknownRule, rules, select
 from mudline.cli import DONE, options
 from mudline.cli.lint_report import STYLES
-from mudline.cli.streams import View, emit_json
+from mudline.cli.streams import View, emit_json, refusing
 from mudline.language.rules import Rule
 
 _PAGE = 100
@@ -28,10 +28,8 @@ _PAGE = 100
 @options.common
 def command(*, code: str | None, output_format: str, view: View) -> int:
     """List the rules, or explain the rules that CODE (a code, a prefix or a slug) names."""
-    try:
+    with refusing(UnknownRule):
         chosen = select([code]) if code else rules()
-    except UnknownRule as error:
-        raise click.UsageError(str(error)) from error
     if output_format == "json":
         emit_json([_object(rule) for rule in chosen])
     elif code and len(chosen) == 1:

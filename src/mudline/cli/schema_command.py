@@ -9,21 +9,20 @@ import click
 from mudline.checks.configuration import ENCODING, EXTEND, KEYS, LISTS, NO_OUTSIDE, OF_CODES, SEVERITIES, WORDS
 from mudline.checks.pages import origin
 from mudline.cli import DONE, options
-from mudline.cli.inputs import STDIN
 from mudline.cli.streams import emit_json
 from mudline.language.deck.document import json_schema
 
 
 @options.command("schema")
 @click.argument("what", type=click.Choice(["deck", "config"]), default="deck")
-@options.output(help="Write to this file.")
+@options.output(type=options.OUTPUT_TEXT, help="Write to this file.")
 @options.common
 def command(*, what: str, output: str | None) -> int:
     """Print the JSON Schema of a deck in JSON or YAML, as `mudline convert` writes it, or of the configuration.
 
     With the schema of the configuration, editors complete and check a mudline.toml.
     """
-    emit_json(configuration_schema() if what == "config" else json_schema(), None if output == STDIN else output)
+    emit_json(configuration_schema() if what == "config" else json_schema(), output)
     return DONE
 
 

@@ -16,7 +16,7 @@ from mudline.checks.rules.slips import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, each_deck, require_text, takes_decks
-from mudline.cli.streams import Progress, View, emit, emit_deck, notify, notify_diagnostics
+from mudline.cli.streams import Progress, View, emit, emit_deck, notify, notify_diagnostics, refusing
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
 from mudline.editing.assignment.fields import ConditionError, FieldTarget, parse_condition, target_of
 from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment
@@ -53,12 +53,10 @@ def command(
     is 1, if in any deck the value is an equation, is not unique, is refused by the checks, or would be far outside the
     usual range. New warnings are shown.
     """
-    try:
+    with refusing(PathError):
         change = parse_assignment(assignment)
         target = target_of(change.path, WrittenOperand.of(change.value))
         where = None if condition is None else parse_condition(condition)
-    except PathError as error:
-        raise click.UsageError(str(error)) from error
     inputs = decks.collect()
     run = _SetRun(change, target, where, decks.units, force, Progress(len(inputs.files), view))
     counts, printed = Counter[str](), list[bytes]()

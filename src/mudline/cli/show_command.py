@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from functools import partial
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
@@ -19,7 +20,7 @@ from mudline.cli.streams import View, emit, emit_json, notify
 from mudline.language.diagnostics import Coverage
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import SUBJECTS
-from mudline.model.results.forms.text import write_text
+from mudline.model.results.forms.text import text_writer
 from mudline.model.results.summary_tables import sheet_data, sheet_tables, tables_of
 
 if TYPE_CHECKING:
@@ -28,9 +29,7 @@ if TYPE_CHECKING:
 
 @options.command("show")
 @options.flag("--sheet", help="Show only the sheet: a row for each run of elements with the same properties.")
-@options.output_option(
-    "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE", help="Write the sheet: .csv, .json, .xlsx."
-)
+@options.output(group=options.OUTPUT, metavar="FILE", help="Write the sheet: .csv, .json, .xlsx.")
 @options.output_format("text", "json", "csv", "xlsx")
 @takes_deck
 def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: str, view: View) -> int:
@@ -47,7 +46,7 @@ def command(*, deck: GivenDeck, sheet: bool, output: str | None, output_format: 
     if output is not None:
         write_tables(sheet_data(elements, units), Path(output))
     elif form == "csv" or (form == "json" and sheet):
-        write_text(sheet_data(elements, units), form, emit, "sheet")
+        sheet_data(elements, units).write(partial(text_writer, form, writes={"sheet": emit}))
     elif form == "json":
         emit_json(summary)
     else:

@@ -71,7 +71,7 @@ def emit(pieces: Iterable[str]) -> None:
 def emit_json(value: object, output: str | None = None) -> None:
     """Write a value as JSON to standard output, or into a file."""
     pieces = [json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False), "\n"]
-    if output is None:
+    if not output:
         emit(pieces)
     else:
         write_text(Path(output), pieces)
@@ -104,6 +104,14 @@ def encoded(text: str) -> bytes:
 def notify(message: str) -> None:
     """Print a note or an error to standard error."""
     click.echo(f"mudline: {visible_lines(message)}", err=True)
+
+
+def notify_some(messages: Sequence[str], more: str) -> None:
+    """Print the first of many notes, and a last one with the number of the others in place of {} in `more`."""
+    for message in messages[:SHOWN_ROWS]:
+        notify(message)
+    if len(messages) > SHOWN_ROWS:
+        notify(more.format(len(messages) - SHOWN_ROWS))
 
 
 def notify_diagnostics(diagnostics: Sequence[Diagnostic], *, refused: bool = True) -> None:
@@ -142,6 +150,17 @@ def naming(path: object, fault: str = "", kind: type[click.ClickException] = cli
         yield
     except OSError as error:
         raise kind(f"{path}: {fault}{reason(error)}") from error
+
+
+@contextmanager
+def refusing(
+    *kinds: type[Exception], before: str = "", kind: type[click.ClickException] = click.UsageError
+) -> Iterator[None]:
+    """End the command with the message of an error of these kinds, behind a text; as wrong usage, or another `kind`."""
+    try:
+        yield
+    except kinds as error:
+        raise kind(f"{before}{error}") from error
 
 
 @contextmanager

@@ -32,9 +32,7 @@ _WIDTH = 110
 @options.option("--heave", type=ABOVE_ZERO, metavar="A", help="Set the heave amplitude of the hang-off, without surge.")
 @options.option("--period", type=ABOVE_ZERO, metavar="T", help="Set the period of the hang-off's motion.")
 @plot_option("error against run time, with the deck's own step")
-@options.option(
-    "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE.json", help="Write the study as JSON into this file."
-)
+@options.output(metavar="FILE.json", help="Write the study as JSON into this file.")
 @options.output_format("text", "json", "csv")
 @takes_deck
 def command(

@@ -57,12 +57,13 @@ def test_a_result_shows_touchdown(deck: mudline.Deck) -> None:
     contact = scene.contact()
     texts = Cells(contact.evaluate()._repr_html_()).texts
     assert texts[:2] == ["ContactResult", " 2 elements, 3 nodes, metric"]
-    assert texts[2:5] == ["time [s]", "line", "touchdown point [m]"]
-    assert texts[-7:] == ["1", "12.502", "12.502", "1500", "1", "15000", "3481.78"]
+    assert texts[2:6] == ["line", "touchdown_points", "touchdown point [m]", "last touchdown point [m]"]
+    assert texts[-9:] == ["1", "1", "12.502", "12.502", "12.502", "1500", "1", "15000", "3481.78"]
     series = contact.evaluate(np.repeat(scene.coordinates[None], 50, axis=0), times=np.arange(50.0))
     texts = Cells(series._repr_html_()).texts
     assert texts[1] == " 50 steps, 2 elements, 3 nodes, metric"
-    assert (texts.count("12.502"), texts[-1]) == (2 * SHOWN_ROWS, f"... and {50 - SHOWN_ROWS} more")
+    assert texts[2] == "time [s]"
+    assert (texts.count("12.502"), texts[-1]) == (3 * SHOWN_ROWS, f"... and {50 - SHOWN_ROWS} more")
 
 
 def test_hostile_texts_are_escaped_and_long_ones_cut() -> None:

@@ -56,6 +56,20 @@ def test_the_content_is_what_the_other_commands_say() -> None:
     assert any(one["keyword"] == "SEABED STIFFNESS" for one in found["inferred"])
 
 
+def test_a_file_in_place_of_the_folder_of_pages_is_named(tmp_path: Path) -> None:
+    folder = tmp_path / "all"
+    folder.write_text("", encoding="utf-8")
+    decks = [str(SAMPLES / name) for name in ("scr-soil.keyxm", "scr-touchdown.keyxm")]
+    outcome = run("report", *decks, "-o", str(tmp_path / "all.html"), "--sections", "verdict")
+    assert (outcome.code, outcome.err) == (2, f"mudline: {folder}: cannot be written: file exists\n")
+
+
+def test_content_to_standard_output() -> None:
+    words = ("report", str(SAMPLES / "scr-touchdown.keyxm"), "--sections", "verdict", "--output-format", "json")
+    assert run(*words, "-o", "-").out == run(*words).out
+    assert not Path("-").exists()
+
+
 def test_values_are_written_for_people(tmp_path: Path) -> None:
     (tmp_path / "deck.keyxm").write_text(ON_SOIL, encoding="utf-8")
     text = made(tmp_path, str(tmp_path / "deck.keyxm"))

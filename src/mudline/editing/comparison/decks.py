@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from enum import StrEnum
 from functools import partial
@@ -28,7 +28,7 @@ from mudline.editing.comparison.model import Allowance, Difference, Pair, Side
 from mudline.language.deck.loading import load_path
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
-from mudline.language.deck.searching import Search, is_in_any_form, may_be_deck
+from mudline.language.deck.searching import Search
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.language.keywords.catalogue import is_superseded, supersedes
 from mudline.model.contact.input import LawKind
@@ -104,18 +104,20 @@ def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: 
 
 
 def compare_folders(
-    before: str, after: str, tolerance: float, *, strict: bool, units: str | None = None, gitignore: bool = True
+    before: Search,
+    after: Search,
+    taken: Callable[[str], bool],
+    tolerance: float,
+    *,
+    strict: bool,
+    units: str | None = None,
 ) -> Iterator[ComparedDeck]:
     """Yield each relative path of a deck below one of two folders, in sorted order, with the result of its comparison.
 
-    Files that cannot be read and decks with errors are included with the status "failed".
+    The decks are the files that are `taken`. Those that cannot be read or have errors have the status "failed".
     """
-    searches = [Search(folder, gitignore) for folder in (before, after)]
-    old, new = (
-        {name: Path(path) for name, path in search.files(lambda path: is_in_any_form(path) and may_be_deck(path))}
-        for search in searches
-    )
-    for error in (error for search in searches for error in search.unreadable):
+    old, new = ({name: Path(path) for name, path in search.files(taken)} for search in (before, after))
+    for error in (*before.unreadable, *after.unreadable):
         name = str(error.filename).replace(os.sep, "/")
         yield ComparedDeck(name, DeckStatus.FAILED, unread=error)
     for name in sorted({*old, *new}):

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.basics.quantities import ELEMENTS, NODES, Names, Quantity
+from mudline.basics.quantities import ELEMENTS, NODES, Names, Quantity, time_unit
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import ContactInput
 from mudline.model.contact.result import ContactResult, ResultPart
@@ -63,6 +63,17 @@ class ResultColumn:
         if self.steady:
             return np.broadcast_to(self.values, (last - first, *self.values.shape))
         return self.values[first:last]
+
+
+def timed(
+    columns: Sequence[ResultColumn], clock: Values | None, rows: int, units: str, name: str = "time"
+) -> list[ResultColumn]:
+    """Return the flat columns of a table, after a column of the times (or numbers) of some steps if there are any."""
+    flat = [part for column in columns for part in column.flat()]
+    if clock is None:
+        return flat
+    times = np.broadcast_to(np.reshape(clock, (-1, 1)), (np.size(clock), rows))
+    return [ResultColumn(name, times, unit=time_unit(units) if name == "time" else ""), *flat]
 
 
 NO_ELEMENT = -1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, get_args
@@ -15,9 +15,9 @@ from mudline.basics.installed import install_hint
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, time_unit
 from mudline.basics.short_repr import counted
-from mudline.model.contact.columns import ElementResults, NodeResults, ResultColumn, ResultTable, Values, by_number
+from mudline.model.contact.columns import ResultColumn, ResultTable, Values, timed
 from mudline.model.contact.result import ContactResult, ResultPart, TableName
-from mudline.model.contact.touchdown import LineResults, line_summaries
+from mudline.model.contact.touchdown import result_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -33,48 +33,38 @@ _COORDINATES = frozenset({"set", "law", "line", "arc_length", "diameter", "lengt
 """Columns that identify elements and nodes, next to their numbers."""
 
 _SHOWN = (
-    "first_touchdown",
-    "contact_length",
-    "largest_force",
-    "largest_force_element",
-    "reaction",
-    "submerged_weight",
+    *("time", "line", "touchdown_points", "first_touchdown", "last_touchdown", "contact_length"),
+    *("largest_force", "largest_force_element", "reaction", "submerged_weight"),
 )
-"""Quantities of lines shown in notebooks."""
+"""Columns of lines shown in notebooks."""
 
 
 def dataframe(result: ContactResult, table: TableName) -> pd.DataFrame:
     """Return a table as a pandas frame, see `ContactResult.to_dataframe`."""
     pandas = _library("pandas")
-    rows, columns, part = _columns(result, table)
-    data: dict[str, Any] = dict(_leading(result, rows.rows))
-    data |= {column.name: _series(pandas, column, part.count) for column in columns}
-    frame: pd.DataFrame = pandas.DataFrame(data)
+    rows, columns, steps = _columns(result, table)
+    frame: pd.DataFrame = pandas.DataFrame({column.name: _series(pandas, column, steps) for column in columns})
     frame.attrs["units"] = rows.units
-    frame.attrs["unit"] = {name: unit for name, unit in _units(columns, rows.units).items() if name in data and unit}
+    frame.attrs["unit"] = {column.name: column.unit for column in columns if column.unit}
     return frame
 
 
 def arrow_table(result: ContactResult, table: TableName) -> pa.Table:
     """Return a table as an Arrow table, see `ContactResult.to_arrow`."""
-    rows, columns, part = _columns(result, table)
-    return arrow_of(columns, part.count, dict(_leading(result, rows.rows)), rows.units)
+    rows, columns, steps = _columns(result, table)
+    return arrow_of(columns, steps, rows.units)
 
 
-def arrow_of(
-    columns: list[ResultColumn], steps: int, leading: Mapping[str, Values], units: str, form: str = RESULT_FORMAT
-) -> pa.Table:
-    """Return flat columns over some steps as an Arrow table, after the `leading` columns; raises ImportError."""
+def arrow_of(columns: list[ResultColumn], steps: int, units: str, form: str = RESULT_FORMAT) -> pa.Table:
+    """Return flat columns over some steps as an Arrow table; raises ImportError."""
     arrow = _library("pyarrow")
-    arrays = {name: arrow.array(values) for name, values in leading.items()}
-    arrays |= {column.name: _array(arrow, column, steps) for column in columns}
-    named = _units(columns, units)
+    arrays = [_array(arrow, column, steps) for column in columns]
     fields = [
-        arrow.field(name, array.type, metadata={UNIT_KEY: named[name]} if named.get(name) else None)
-        for name, array in arrays.items()
+        arrow.field(column.name, array.type, metadata={UNIT_KEY: column.unit} if column.unit else None)
+        for column, array in zip(columns, arrays, strict=True)
     ]
     about = {FORMAT_KEY: form, UNITS_KEY: units}
-    return arrow.table(list(arrays.values()), schema=arrow.schema(fields, metadata=about))
+    return arrow.table(arrays, schema=arrow.schema(fields, metadata=about))
 
 
 def dataset(result: ContactResult) -> xr.Dataset:
@@ -104,23 +94,12 @@ def html(result: ContactResult) -> str:
         return html_page("ContactResult", summary)
     units = result.given.units
     lines = _table(result, "summary").rows
-    shown = line_summaries(series.steps(0, -(-SHOWN_ROWS // max(lines, 1))))
-    headings = [labelled("time", time_unit(units)), "line"]
-    headings += [labelled(each.label or name, each.unit_name(units)) for name, each in LINES.items() if name in _SHOWN]
-    rows = (
-        (
-            line.time,
-            line.line,
-            ", ".join(f"{point.arc_length:.6g}" for point in line.touchdown),
-            line.contact_length,
-            None if line.largest_force is None else line.largest_force.force,
-            None if line.largest_force is None else line.largest_force.element,
-            line.reaction,
-            line.submerged_weight,
-        )
-        for line in shown
-    )
-    return html_page("ContactResult", f"{summary}, {units}", html_table(headings, rows, len(series.depth) * lines))
+    _, columns, steps = _columns(series.steps(0, -(-SHOWN_ROWS // max(lines, 1))), "summary")
+    shown = {column.name: column for column in columns if column.name in _SHOWN}
+    headings = [LINES[name].axis(units) if name in LINES else labelled(name, each.unit) for name, each in shown.items()]
+    values = (column.cut(0, steps).ravel().tolist() for column in shown.values())
+    table = html_table(headings, zip(*values, strict=True), len(series.depth) * lines)
+    return html_page("ContactResult", f"{summary}, {units}", table)
 
 
 def array_name(table: str, column: str) -> str:
@@ -138,31 +117,18 @@ def spelled(column: ResultColumn) -> Values:
 
 
 def _table(result: ContactResult, name: str) -> ResultTable:
-    given = result.known
-    elements = np.flatnonzero(result.evaluated)
-    if name == "nodes":
-        return NodeResults(given, by_number(given, result.present))
-    return ElementResults(given, elements) if name == "elements" else LineResults(given, elements)
+    return result_table(result.known, name, result.evaluated, result.present)
 
 
-def _columns(result: ContactResult, name: TableName) -> tuple[ResultTable, list[ResultColumn], ResultPart]:
-    """Return a table, its flat columns and its part over all steps."""
+def _columns(result: ContactResult, name: TableName) -> tuple[ResultTable, list[ResultColumn], int]:
+    """Return a table, its flat columns after times or numbers of steps if there are any, and the number of steps."""
     expect_word(name, "table", get_args(TableName))
     table, part = _table(result, name), ResultPart(0, result.as_series())
-    return table, [flat for column in table.columns(part) for flat in column.flat()], part
-
-
-def _leading(result: ContactResult, rows: int) -> Iterator[tuple[str, Values]]:
-    """Yield the columns that identify the steps: times or numbers from 0; none for a single state without a time."""
-    if result.times is not None:
-        yield "time", np.repeat(result.times, rows)
-    elif result.depth.ndim == 2:
-        yield "step", np.repeat(np.arange(len(result.depth)), rows)
-
-
-def _units(columns: list[ResultColumn], units: str) -> dict[str, str]:
-    """Return the unit of each column by name; "" for none."""
-    return {"time": time_unit(units), **{column.name: column.unit for column in columns}}
+    clock: Values | None = part.result.times
+    named = "time"
+    if clock is None and result.depth.ndim == 2:
+        clock, named = np.arange(part.count), "step"
+    return table, timed(table.columns(part), clock, table.rows, table.units, named), part.count
 
 
 def _given(about: Mapping[str, str]) -> dict[str, str]:

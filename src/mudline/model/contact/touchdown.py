@@ -11,7 +11,15 @@ import numpy as np
 
 from mudline.basics.quantities import LINES, finite
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.model.contact.columns import NO_ELEMENT, ResultColumn, ResultTable, Values
+from mudline.model.contact.columns import (
+    NO_ELEMENT,
+    ElementResults,
+    NodeResults,
+    ResultColumn,
+    ResultTable,
+    Values,
+    by_number,
+)
 from mudline.model.contact.input import ContactInput, LawKind
 from mudline.model.contact.lines import ElementForce, LineSummary, TouchdownPoint
 from mudline.model.contact.result import ContactResult, ResultPart, total_normal_force
@@ -36,29 +44,31 @@ class _TouchdownPoints:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LineSeries:
-    """A line over some steps (s,); NaN and -1 mean "none".
+    """A line over some steps (s,), with the names of `LINES`; NaN and -1 mean "none".
 
     Attributes:
         number: number of the line, from 0.
-        points: number of touchdown points at each step.
-        first, last: arc length of the first and the last touchdown point.
-        contact_length, reaction, weight, empty: as in `LineSummary`.
-        force, uplift: largest force out of the seabed and largest pull, per unit length and with their signs.
+        touchdown_points: number of touchdown points at each step.
+        first_touchdown, last_touchdown: arc length of the first and the last touchdown point.
+        contact_length, reaction, submerged_weight, empty_weight, ratio: as in `LineSummary`.
+        largest_force, largest_uplift: largest force out of the seabed and largest pull, per unit length and with their
+            signs.
         force_at, uplift_at: indices of the elements with these forces.
         found: the touchdown points.
     """
 
     number: int
-    points: IndexArray
-    first: FloatArray
-    last: FloatArray
+    touchdown_points: IndexArray
+    first_touchdown: FloatArray
+    last_touchdown: FloatArray
     contact_length: FloatArray
     reaction: FloatArray
-    weight: FloatArray
-    empty: FloatArray
-    force: FloatArray
+    submerged_weight: FloatArray
+    empty_weight: FloatArray
+    ratio: FloatArray
+    largest_force: FloatArray
     force_at: IndexArray
-    uplift: FloatArray
+    largest_uplift: FloatArray
     uplift_at: IndexArray
     found: _TouchdownPoints
 
@@ -119,7 +129,7 @@ class Touchdown:
             np.full(steps, np.nan) if of is None else np.where(held, of[elements], 0.0).sum(axis=1)
             for of in (self._weights, self._empty)
         )
-        own = self._own_nodes[line]
+        reaction = total_normal_force(result, self._own_nodes[line])
         pushes, pulls = _extreme(force, elements, 1.0), _extreme(force, elements, -1.0)
         counts = np.bincount(step, minlength=steps)
         return LineSeries(
@@ -128,9 +138,10 @@ class Touchdown:
             first,
             last,
             lies,
-            total_normal_force(result, own),
+            reaction,
             weight,
             empty,
+            reaction / np.where(weight > 0.0, weight, np.nan),
             *pushes,
             *pulls,
             _TouchdownPoints(step, at, places, after),
@@ -147,9 +158,7 @@ class Touchdown:
 
     def _summary(self, line: LineSeries, result: ContactResult, step: int, cut: slice) -> LineSummary:
         elements = self.lines.elements[line.number]
-        reaction, weight = float(line.reaction[step]), float(line.weight[step])
         ids = self.given.element_ids
-        ratio = reaction / weight if weight > 0.0 else math.nan
         return LineSummary(
             time=None if result.times is None else float(result.times[step]),
             line=line.number + 1,
@@ -166,12 +175,12 @@ class Touchdown:
                 )
             ),
             contact_length=float(line.contact_length[step]),
-            largest_force=self._place(float(line.force[step]), int(line.force_at[step]), result, step),
-            largest_uplift=self._place(float(line.uplift[step]), int(line.uplift_at[step]), result, step),
-            reaction=finite(reaction),
-            submerged_weight=finite(weight),
-            empty_weight=finite(float(line.empty[step])),
-            ratio=finite(ratio),
+            largest_force=self._place(float(line.largest_force[step]), int(line.force_at[step]), result, step),
+            largest_uplift=self._place(float(line.largest_uplift[step]), int(line.uplift_at[step]), result, step),
+            reaction=finite(float(line.reaction[step])),
+            submerged_weight=finite(float(line.submerged_weight[step])),
+            empty_weight=finite(float(line.empty_weight[step])),
+            ratio=finite(float(line.ratio[step])),
         )
 
     def _place(self, force: float, element: int, result: ContactResult, step: int) -> ElementForce | None:
@@ -207,39 +216,36 @@ class LineResults(ResultTable):
         """Return the columns of `LINES`."""
         with np.errstate(over="ignore", invalid="ignore"):
             values = [self._values(line) for line in self.finder.series(part)]
-        figures = {
-            name: np.stack([each[name] for each in values], axis=1) if values else np.zeros((part.count, 0))
-            for name in LINES
-            if name not in self._fixed
-        }
+        names = [name for name in LINES if name not in self._fixed]
+        figures = {name: side_by_side([each[name] for each in values], part.count) for name in names}
         return self._columns(figures, part.result)
 
     def _values(self, line: LineSeries) -> dict[str, Values]:
         given, lines = self.finder.given, self.finder.lines
         ids = np.append(given.element_ids, NO_ELEMENT)
         arcs = np.append(lines.element_arc, np.nan)
-        values: dict[str, Values] = {
-            "touchdown_points": line.points,
-            "contact_length": line.contact_length,
-            "largest_force": line.force,
-            "largest_force_element": ids[line.force_at],
-            "largest_force_arc_length": arcs[line.force_at],
-            "largest_uplift": line.uplift,
-            "largest_uplift_element": ids[line.uplift_at],
-            "largest_uplift_arc_length": arcs[line.uplift_at],
-            "reaction": line.reaction,
-            "submerged_weight": line.weight,
-            "empty_weight": line.empty,
-            "ratio": np.where(line.weight > 0.0, line.reaction / np.where(line.weight > 0.0, line.weight, 1.0), np.nan),
-        }
-        there = np.flatnonzero(line.points)
+        values: dict[str, Values] = {name: getattr(line, name) for name in LINES if hasattr(line, name)}
+        for name, at in (("largest_force", line.force_at), ("largest_uplift", line.uplift_at)):
+            values |= {f"{name}_element": ids[at], f"{name}_arc_length": arcs[at]}
+        there = np.flatnonzero(line.touchdown_points)
         rows = np.searchsorted(line.found.step, there), np.searchsorted(line.found.step, there, side="right") - 1
-        for name, arc, row in (("first_touchdown", line.first, rows[0]), ("last_touchdown", line.last, rows[1])):
-            values[name] = arc
-            places = np.full((len(arc), 3), np.nan)
+        for name, row in zip(("first_touchdown", "last_touchdown"), rows, strict=True):
+            places = np.full((len(line.reaction), 3), np.nan)
             places[there] = line.found.places[row]
             values |= {f"{name}_{axis}": places[:, i] for i, axis in enumerate("xyz")}
         return values
+
+
+def result_table(given: ContactInput, name: str, evaluated: BoolArray, present: BoolArray) -> ResultTable:
+    """Return the rows of the evaluated "elements", the "nodes" with a position, or the lines ("summary")."""
+    if name == "nodes":
+        return NodeResults(given, by_number(given, present))
+    return (ElementResults if name == "elements" else LineResults)(given, np.flatnonzero(evaluated))
+
+
+def side_by_side(values: Sequence[Values], steps: int) -> Values:
+    """Return values (s,) of k lines over `steps` steps as (s, k)."""
+    return np.stack(values, axis=1) if values else np.zeros((steps, 0))
 
 
 def line_summaries(result: ContactResult) -> list[LineSummary]:

@@ -15,9 +15,9 @@ from mudline.basics.short_repr import counted, cut, outline
 from mudline.language.codes.lines import SYN009
 from mudline.model.contact import ContactModel, ElementError, LawKind, PositionError
 from mudline.model.contact.arrays import Positions, StepReader
-from mudline.model.contact.columns import ElementResults, NodeResults, ResultTable, by_number
+from mudline.model.contact.columns import ResultTable, by_number
 from mudline.model.contact.result import ResultPart
-from mudline.model.contact.touchdown import LineResults, Touchdown
+from mudline.model.contact.touchdown import Touchdown, result_table
 from mudline.model.scene.deck_values import unread_makers
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
@@ -115,10 +115,7 @@ class Evaluation:
 
         Those of a line are touchdown, largest forces, reaction and weight.
         """
-        if name == "nodes":
-            return NodeResults(self.model.input, self.nodes)
-        kind = ElementResults if name == "elements" else LineResults
-        return kind(self.model.input, self.elements)
+        return result_table(self.model.input, name, self.evaluated, self.present)
 
     def run(self, consumers: Sequence[ResultConsumer], done: Callable[[int], None] = lambda _: None) -> None:
         """Evaluate all steps once and pass the results on; `done` is called with the number of steps of each part.

@@ -191,7 +191,9 @@ class PlotData:
         self.depth.take(result.depth)
         for line in self._finder.series(part) if self.touchdown else ():
             if line.number in self.touchdown:
-                for extents, values in zip(self.touchdown[line.number], (line.first, line.last), strict=True):
+                for extents, values in zip(
+                    self.touchdown[line.number], (line.first_touchdown, line.last_touchdown), strict=True
+                ):
                     extents.take_bins(bins, values)
         if self.looped.size:
             every = -(-self.steps // _LOOP_STEPS)

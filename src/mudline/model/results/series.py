@@ -7,18 +7,19 @@ Memory does not grow with the number of steps.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.basics.quantities import ELEMENTS, LINES, NODES, SLIDING, STEPS, time_unit
+from mudline.basics.quantities import SLIDING, STEPS, Quantity, time_unit
 from mudline.model.contact.columns import NO_ELEMENT, ResultColumn, Values, kept
 from mudline.model.contact.input import LawKind
 from mudline.model.contact.result import ResultPart
-from mudline.model.contact.touchdown import LineSeries
+from mudline.model.contact.touchdown import LineSeries, side_by_side
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.forms import ResultTables, plan_rows
+from mudline.model.results.forms import TABLES, FileContent, ResultTables, Writer, plan_rows
 from mudline.model.results.totals import HELD, StepValues, carried, step_figures
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats, Mask
@@ -63,28 +64,22 @@ def _of_nodes(evaluation: Evaluation, part: ResultPart) -> Figures:
     }
 
 
-_OF_LINES = {
-    "first_touchdown": "first",
-    "last_touchdown": "last",
-    "contact_length": "contact_length",
-    "largest_force": "force",
-    "largest_uplift": "uplift",
-    "reaction": "reaction",
-}
-"""Quantities of `LINES` that are followed, and the figures of `LineSeries`."""
+_OF_LINES = ("first_touchdown", "last_touchdown", "contact_length", "largest_force", "largest_uplift", "reaction")
+"""Quantities of `LINES` that are followed."""
 
 
 def _of_lines(evaluation: Evaluation, part: ResultPart) -> Figures:
     lines = evaluation.touchdown.series(part)
-    values = {name: StepValues(_side_by_side(lines, figure, part)) for name, figure in _OF_LINES.items()}
+    of_lines = partial(_of_each, lines, part)
+    values = {name: StepValues(of_lines(name)) for name in _OF_LINES}
     return values | {
         "contact_steps": StepValues(values["contact_length"].values > 0.0),
-        "touchdown_steps": StepValues(_side_by_side(lines, "points", part) > 0),
+        "touchdown_steps": StepValues(of_lines("touchdown_points") > 0),
     }
 
 
-def _side_by_side(lines: Sequence[LineSeries], name: str, part: ResultPart) -> Values:
-    return np.stack([getattr(line, name) for line in lines], axis=1) if lines else np.zeros((part.count, 0))
+def _of_each(lines: Sequence[LineSeries], part: ResultPart, name: str) -> Values:
+    return side_by_side([getattr(line, name) for line in lines], part.count)
 
 
 def _of_case(evaluation: Evaluation, part: ResultPart) -> Figures:
@@ -97,18 +92,19 @@ def _of_case(evaluation: Evaluation, part: ResultPart) -> Figures:
     figures = {"in_contact": StepValues(touching.astype(np.float64)[:, np.newaxis])}
     if not lines:
         return figures
+    of_lines = partial(_of_each, lines, part)
     with np.errstate(over="ignore", invalid="ignore"):
         length, reaction, weight, empty = (
-            _side_by_side(lines, name, part).sum(axis=1, keepdims=True)
-            for name in ("contact_length", "reaction", "weight", "empty")
+            of_lines(name).sum(axis=1, keepdims=True)
+            for name in ("contact_length", "reaction", "submerged_weight", "empty_weight")
         )
     known = np.where(np.isnan(reaction), np.inf, reaction)  # an unknown one stays unknown
     return figures | {
-        "touchdown_from": StepValues(_side_by_side(lines, "first", part)),
-        "touchdown_to": StepValues(_side_by_side(lines, "last", part)),
+        "touchdown_from": StepValues(of_lines("first_touchdown")),
+        "touchdown_to": StepValues(of_lines("last_touchdown")),
         "contact_length": StepValues(length),
-        "largest_force": StepValues(_side_by_side(lines, "force", part), _side_by_side(lines, "force_at", part)),
-        "largest_uplift": StepValues(_side_by_side(lines, "uplift", part), _side_by_side(lines, "uplift_at", part)),
+        "largest_force": StepValues(of_lines("largest_force"), of_lines("force_at")),
+        "largest_uplift": StepValues(of_lines("largest_uplift"), of_lines("uplift_at")),
         "reaction": StepValues(known, weight),
         "reaction_empty": StepValues(known, empty),
     }
@@ -246,11 +242,26 @@ class SeriesSummary:
         return int(self.evaluation.scene.element_ids[int(peak.at)])
 
 
+class SeriesSink:
+    """Consumer that passes the summary of a series to a writer after the last step."""
+
+    def __init__(self, evaluation: Evaluation, open_writer: Callable[[FileContent], Writer]) -> None:
+        self._summary, self._open_writer = SeriesSummary(evaluation, *SERIES), open_writer
+
+    def take(self, part: ResultPart) -> None:
+        """Add some steps."""
+        self._summary.take(part)
+
+    def finish(self, warnings: Sequence[ContactWarning] = ()) -> None:
+        """Write the tables. Raises OSError."""
+        series_tables(self._summary, warnings).write(self._open_writer)
+
+
 # --------------------------------------------------------------------------------------------------------------- tables
 
 SERIES_FORMAT = "mudline-series/1"
 """Name and version of the format of files with the summary of a series."""
-SERIES = ("elements", "nodes", "summary", "totals")
+SERIES = (*TABLES, "totals")
 """Tables with the figures of `series_tables`."""
 
 
@@ -258,10 +269,12 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
     """Return the tables of a summary, with the additional keys of JSON."""
     evaluation = summary.evaluation
     times = evaluation.time
-    facts = {name: evaluation.table(name).facts() for name in ("elements", "nodes", "summary")}
-    tables = {table: [*facts[table], *_extremes(summary, table, times)] for table in facts}
+    of_rows = {name: evaluation.table(name) for name in TABLES}
+    tables = {
+        name: [*each.facts(), *_extremes(summary, name, each.quantities, times)] for name, each in of_rows.items()
+    }
     for (table, name), counts in summary.counts.items():
-        if table in facts:
+        if table in tables:
             tables[table].append(ResultColumn(name, counts))
     tables["totals"] = _totals(summary, times)
     more = {
@@ -273,11 +286,13 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
     return ResultTables(tables, SERIES_FORMAT, evaluation.scene.units, more)
 
 
-def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Iterator[ResultColumn]:
+def _extremes(
+    summary: SeriesSummary, table: str, quantities: Mapping[str, Quantity], times: Floats | None
+) -> Iterator[ResultColumn]:
     """Yield the least and the largest value of each figure, with step and time."""
-    units, of_table = summary.evaluation.scene.units, {"elements": ELEMENTS, "nodes": NODES, "summary": LINES}[table]
+    units = summary.evaluation.scene.units
     for figure, extremes in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
-        quantity = of_table[figure]
+        quantity = quantities[figure]
         for side, best in (("least", extremes.least), ("largest", extremes.largest)):
             name, steps, known = f"{quantity.name}_{side}", best.steps, best.steps >= 0
             yield ResultColumn(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))

@@ -13,12 +13,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple, Protocol
 
-import numpy as np
-
 from mudline.basics.installed import install_hint
-from mudline.basics.quantities import RESULT_FORMAT, time_unit
+from mudline.basics.quantities import RESULT_FORMAT
 from mudline.model.contact import Plan
-from mudline.model.contact.columns import ResultColumn
+from mudline.model.contact.columns import ResultColumn, timed
 from mudline.model.contact.frames import array_name
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
@@ -34,19 +32,19 @@ class ResultForm(NamedTuple):
 
     Attributes:
         summary: contents of a file, for the documentation, Markdown.
-        beside: the tables that have files of their own.
+        separate: whether each table has a file of its own.
         library: library that writes it; "" if none is needed.
         extra: extra of mudline that installs the library; "" if none is needed.
     """
 
     summary: str
-    beside: tuple[str, ...] = ()
+    separate: bool = False
     library: str = ""
     extra: str = ""
 
 
 FORMS = {
-    "csv": ResultForm("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", ("nodes", "summary")),
+    "csv": ResultForm("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", separate=True),
     "json": ResultForm("everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"),
     "npz": ResultForm(
         "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), vectors with a last "
@@ -56,19 +54,20 @@ FORMS = {
     "parquet": ResultForm(
         "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
         f"`{install_hint('frames')}`",
-        ("nodes", "summary"),
-        "pyarrow",
-        "frames",
+        separate=True,
+        library="pyarrow",
+        extra="frames",
     ),
     "xlsx": ResultForm(
         "sheets `elements`, `nodes` and `summary`, with units below the names of the columns; "
         f"`{install_hint('excel')}`",
-        (),
-        "xlsxwriter",
-        "excel",
+        library="xlsxwriter",
+        extra="excel",
     ),
 }
 """Formats by suffix."""
+TABLES = ("elements", "nodes", "summary")
+"""Tables of results."""
 TEXTS = ("csv", "json")
 """Formats that standard output has too."""
 
@@ -111,11 +110,8 @@ class FileContent:
 
     def timed(self, table: str, columns: Sequence[ResultColumn], start: int, count: int) -> list[ResultColumn]:
         """Return the flat columns of a table, after a column of times if there are any."""
-        flat = [part for column in columns for part in column.flat()]
-        if self.times is None:
-            return flat
-        times = np.broadcast_to(self.times[start : start + count, np.newaxis], (count, self.rows[table]))
-        return [ResultColumn("time", times, unit=time_unit(self.units)), *flat]
+        clock = None if self.times is None else self.times[start : start + count]
+        return timed(columns, clock, self.rows[table], self.units)
 
 
 class Writer(Protocol):
@@ -145,7 +141,7 @@ class Sink:
     ) -> None:
         """Open the writer of a format for all tables, or of CSV for one table. Raises what `open_writer` does."""
         self._evaluation, self._form, self._comparison = evaluation, form, comparison
-        names = ("elements", "nodes", "summary") if only is None else (only,)
+        names = TABLES if only is None else (only,)
         self._tables = {name: evaluation.table(name) for name in (("elements", "nodes") if form == "json" else names)}
         rows = {name: table.rows for name, table in self._tables.items()}
         plan = {"plan": plan_rows(evaluation.model.plan)}
@@ -221,7 +217,8 @@ class ResultTables:
         rows = {name: len(columns[0].values) for name, columns in self.columns.items()}
         return FileContent(rows, self.units, self.format, self.more, array_name=lambda table, name: f"{table}_{name}")
 
-    def write(self, writer: Writer) -> None:
-        """Write the tables. Raises OSError."""
+    def write(self, open_writer: Callable[[FileContent], Writer]) -> None:
+        """Write the tables. Raises OSError, and what `open_writer` does."""
+        writer = open_writer(self.contents)
         writer.write(self.columns, 0, 1, {})
         writer.finish({})

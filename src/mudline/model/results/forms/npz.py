@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from tempfile import TemporaryFile
 from typing import IO, Any
 
 import numpy as np
 
 from mudline.model.contact.columns import ResultColumn, Values
+from mudline.model.contact.frames import spelled
 from mudline.model.results.forms import Columns, More, ResultOutput
 
 _PACKED = 1 << 18
@@ -60,10 +62,8 @@ class _Array:
     def __init__(self, column: ResultColumn, file: IO[bytes] | None) -> None:
         self.over_steps = column.over_steps
         self.shape = column.values.shape if column.steady else column.values.shape[1:]
-        self._texts = np.array([name or "" for name in column.names], dtype=np.str_) if column.names else None
-        self._kept = column.values.dtype
-        self.dtype = self._kept if self._texts is None else self._texts.dtype
-        self._steady, self._file = column.values, file
+        self._column, self._kept, self._file = column, column.values.dtype, file
+        self.dtype = self._spelled(np.zeros(0, self._kept)).dtype
 
     def take(self, column: ResultColumn) -> None:
         """Keep the values of some steps."""
@@ -73,7 +73,7 @@ class _Array:
     def pieces(self, steps: int) -> Iterator[Values]:
         """Yield all values of so many steps, in order, flat."""
         if self._file is None:
-            row = self._steady.ravel()
+            row = self._column.values.ravel()
             together = min(steps, max(1, _PACKED // max(row.size, 1)))
             block = self._spelled(np.tile(row, together))
             for first in range(0, steps, together):
@@ -84,7 +84,7 @@ class _Array:
             yield self._spelled(np.frombuffer(data, self._kept))
 
     def _spelled(self, values: Values) -> Values:
-        return values if self._texts is None else self._texts[values]
+        return spelled(replace(self._column, values=values))
 
 
 def _pack(

@@ -27,7 +27,7 @@ class ParquetWriter:
         """Write some steps. Raises OSError."""
         for table, waiting in self._waiting.items():
             flat = self._contents.timed(table, columns[table], start, count)
-            waiting.append(arrow_of(flat, count, {}, self._contents.units, self._contents.format))
+            waiting.append(arrow_of(flat, count, self._contents.units, self._contents.format))
             if sum(len(each) for each in waiting) >= GROUP:
                 self._flush(table)
 

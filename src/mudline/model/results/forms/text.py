@@ -14,7 +14,7 @@ from pydantic_core import to_json
 
 from mudline.basics.quantities import csv_lines
 from mudline.model.contact.columns import ResultColumn, Values
-from mudline.model.results.forms import Columns, FileContent, More, ResultOutput, ResultTables, Write, Writer
+from mudline.model.results.forms import Columns, FileContent, More, ResultOutput, Write, Writer
 
 _BLOCK = 8192
 """Rows formatted at a time: the text of a large model is never in memory as a whole."""
@@ -34,11 +34,6 @@ def writer(output: ResultOutput) -> Writer:
 def text_writer(form: str, contents: FileContent, writes: Mapping[str, Write]) -> Writer:
     """Return the writer of some tables as "csv", or of all tables as "json" into the first of the texts."""
     return CsvWriter(contents, writes) if form == "csv" else JsonWriter(contents, next(iter(writes.values())))
-
-
-def write_text(tables: ResultTables, form: str, write: Write, table: str) -> None:
-    """Write whole tables as "json", or one of them as "csv"."""
-    tables.write(text_writer(form, tables.contents, {table: write}))
 
 
 def text_into(stream: BinaryIO) -> Write:

@@ -303,6 +303,7 @@ def draw_run_times(axes: Axes, run_times: Floats, errors: Floats, marked: Mask, 
         axes.plot(times[marked], values[marked], "*", color=look.color, **_STAR)
     if marked.any():
         axes.plot([], [], "*", color="0.6", label="the deck's own step", **_STAR)
+    finish(axes)
     axes.set(xscale="log", yscale="log", xlabel="run time [ms per s of motion]", ylabel="error of the last period [%]")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
@@ -312,14 +313,13 @@ def draw_run_times(axes: Axes, run_times: Floats, errors: Floats, marked: Mask, 
         axes.axhline(goal, color="0.4", linewidth=1.0, linestyle=":")
         text = f" {goal:g} %"
         axes.annotate(text, (0.0, goal), xycoords=("axes fraction", "data"), va="bottom", color="0.3")
-    axes.grid(visible=True, which="major", color="0.9")
-    axes.legend(edgecolor="none", framealpha=0.9)
+    legend(axes)
 
 
 @drawing()
 def run_times_figure(deck: str, run_times: Floats, errors: Floats, marked: Mask, names: Sequence[str]) -> Figure:
     """Return the diagram of a deck."""
-    figure = Figure(figsize=(6.5, 5.2), layout="constrained", dpi=120)
+    figure = new_figure(5.2)
     draw_run_times(figure.subplots(), run_times, errors, marked, names)
     figure.suptitle(f"Error against run time: {printable(deck, 100)}", fontsize="medium").set_parse_math(False)
     return figure

@@ -192,10 +192,9 @@ def loop(axes: Axes, stretch: DrawnStretch, place: int) -> None:
     """Draw the path of one of the chosen elements."""
     data = stretch.data
     draw_path(axes, data.loop(place))
-    names = unit_names(data.given.units)
     number = int(data.given.element_ids[data.looped[place]])
-    axes.set_xlabel(labelled(f"penetration of element {number}", names.length))
-    axes.set_ylabel(labelled("seabed reaction\nper unit length", names.line_force).replace(" [", "\n["))
+    axes.set_xlabel(labelled(f"penetration of element {number}", unit_names(data.given.units).length))
+    axes.set_ylabel(ELEMENTS["force"].axis(data.given.units).replace(" [", "\n["))
     legend(axes)
 
 
