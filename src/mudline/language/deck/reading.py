@@ -185,9 +185,7 @@ class _DeckReader:
             if self._reports(SYN007, span, None):
                 message = f"*{block.name} stands before any $SECTION: put it in its section, {_belongs(block.name)}"
                 self.problems.append(Problem(SYN007, message, span))
-        first = self.tree.sections[0].head if self.tree.sections else None
-        end = first.span.start if first else len(self.text)
-        self.deck.preamble = _lines(self.text, Span(0, end)) if end else []
+        self.deck.preamble = _lines(self.text, preamble.span) if preamble.span.end else []
 
     def _of_deeplines(self) -> RawBlock | None:
         """Return a block of DeepLines, in a text without sections and commas: *SOIL, *TRENCH, or spaced rows."""

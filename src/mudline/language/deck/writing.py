@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from difflib import SequenceMatcher
-from itertools import chain, pairwise
+from itertools import chain
 
 from mudline.language.codes import DOC002
 from mudline.language.deck.keyword_text import canonical_text, lines_of, to_keyword
@@ -32,7 +32,8 @@ def keyword_file(deck: Deck) -> bytes:
         return text.encode()
     source = deck.origin.source
     old, new = _pieces(read_source(source, units=deck.units)), _pieces(deck)
-    spans = _spans(deck.origin)
+    tree = deck.origin.tree
+    spans = [tree.preamble.span, *(spot.span for spot in tree.spots if spot.where.section >= 0)]
     try:
         for by_lines in (True, False):
             try:
@@ -71,14 +72,6 @@ def _by_place(comments: Iterable[Comment], count: int) -> list[Lines]:
     for comment in sorted(comments, key=lambda one: one.before):
         found[min(comment.before, count)].append(f"C{comment.text}")
     return list(map(tuple, found))
-
-
-def _spans(origin: TextOrigin) -> list[Span]:
-    """Return the place of each piece of the text."""
-    sections = origin.tree.sections
-    heads = chain.from_iterable((section.head, *(block.head for block in section.blocks)) for section in sections)
-    starts = [0, *(head.span.start for head in heads if head), len(origin.source.text)]
-    return [Span(start, end) for start, end in pairwise(starts)]
 
 
 def _edits(source: Source, spans: list[Span], old: list[Lines], new: list[Lines], *, by_lines: bool) -> list[TextEdit]:

@@ -30,17 +30,16 @@ from mudline.model.scene.numbering import Floats
 from mudline.model.scene.references import CURVES
 from mudline.model.scene.restart import find_deck
 from mudline.tools.lsp.decks import Analysis, value_text
-from mudline.tools.lsp.places import Occurrence, Site, at, equation_spans, site, spot
+from mudline.tools.lsp.places import Occurrence, Site, at, equation_spans, site
 
 
 def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     """Return the help on an offset, in Markdown; None if there is none."""
     origin = analysis.origin
-    here = spot(origin.tree, offset)
-    leaf = here.raw.head if here.raw else here.raw_section.head if here.raw_section else None
+    _, section, block = spot = origin.tree.at(offset)
+    leaf = spot.part.head
     if leaf is not None and leaf.span.start <= offset < leaf.span.end:
-        section = here.raw_section.name if here.raw_section else ""
-        head = section_help(section) if here.raw is None else keyword_help(here.raw.name, section)
+        head = keyword_help(block.name, section.name) if block else section_help(section.name)
         return _hover(analysis, head, trimmed(origin.source.unified, *leaf.span))
     named = at(analysis.names, offset)
     if named is not None and named.thing.kind is Names.PARAMETER:

@@ -13,12 +13,11 @@ from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
 from mudline.language.expression.evaluation import CONSTANTS
 from mudline.language.expression.parsing import ExpressionError, parse
-from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, FieldSpec, Part
 from mudline.language.keywords.reader import schemas_of
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.fields import canonical_key, first_key, read_line
-from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, SyntaxTree
+from mudline.language.syntax.tree import LeafKind
 
 KINDS = {
     Names.SET: Names.SET,
@@ -164,38 +163,6 @@ def _placeholders(origin: TextOrigin) -> Iterator[Occurrence]:
 # ------------------------------------------------------------------------------------------------- place of an offset
 
 
-class Spot(NamedTuple):
-    """Section and block in whose lines an offset lies, with their numbers; -1 and None outside any section or block."""
-
-    section: int = -1
-    block: int = -1
-    raw_section: RawSection | None = None
-    raw: RawBlock | None = None
-
-    @property
-    def where(self) -> Where:
-        """The place among the values."""
-        return Where(self.section, self.block)
-
-    @property
-    def declared(self) -> type[Block] | None:
-        """The declaration of the block's keyword in this section."""
-        if self.raw is None or self.raw_section is None:
-            return None
-        return catalogue.block_class(self.raw_section.name, self.raw.name)
-
-
-def spot(tree: SyntaxTree, offset: int) -> Spot:
-    """Return the section and block at an offset; a block begins at its first character, and ends before the next."""
-    heads = [section.head.span.start if section.head else 0 for section in tree.sections]
-    at = bisect_right(heads, offset) - 1
-    if at < 0:
-        return Spot()
-    section = tree.sections[at]
-    number = bisect_right([block.head.span.start for block in section.blocks], offset) - 1
-    return Spot(at, number, section, section.blocks[number] if number >= 0 else None)
-
-
 class Site(NamedTuple):
     """A value of a deck: its place, its field, and the value as read (None if it could not be read)."""
 
@@ -208,36 +175,28 @@ class Site(NamedTuple):
 def site(deck: Deck, offset: int) -> Site | None:
     """Return the value at an offset of a deck in keyword text, also if its KEY= is there."""
     origin = cast("TextOrigin", deck.origin)
-    here = spot(origin.tree, offset)
-    read = origin.read.get((here.section, here.block))
-    if read is None or here.raw is None:
+    where, _, raw = origin.tree.at(offset)
+    read = origin.read.get(where[:2])
+    if read is None or raw is None:
         return None
-    leaves = [here.raw.head, *here.raw.leaves]
-    leaf = leaves[bisect_right([leaf.span.start for leaf in leaves], offset) - 1]  # the line, or run of lines
+    leaves = [raw.head, *raw.leaves]
+    leaf = leaves[bisect_right(leaves, offset, key=lambda leaf: leaf.span.start) - 1]  # the line, or run of lines
     if leaf.kind is LeafKind.COMMENT:
-        return None
-    block = deck.sections[here.section].blocks[here.block]
-    if type(block) is Opaque:
         return None
     place = read.places.at(offset)
     if place is not None:
         path, span = place
-        slot, value = cast("Block", block).at(path)
+        slot, value = read.model.at(path)
         if slot is not None and not isinstance(value, Part | list):
-            return Site(here.where.inside(*path), span, slot, value)
-    return _of_key(origin, here, leaf, offset)
-
-
-def _of_key(origin: TextOrigin, here: Spot, leaf: Leaf, offset: int) -> Site | None:
-    """Return the setting whose KEY= is at an offset."""
-    declared = here.declared
-    if declared is None or leaf.kind not in (LeafKind.SETTING, LeafKind.UNDECIDED):
+            return Site(where.inside(*path), span, slot, value)
+    if leaf.kind not in (LeafKind.SETTING, LeafKind.UNDECIDED):
         return None
+    declared = type(read.model)
     for group in read_line(origin.source.unified, leaf.span, slashes=declared.slashes).groups:
         end = group.fields[0].span.start if group.fields else group.span.end
         if group.key and group.span.start <= offset <= end:
             slot = slot_of_key(declared, group.key)
-            return Site(here.where, Span(group.span.start, end), slot, None) if slot else None
+            return Site(where, Span(group.span.start, end), slot, None) if slot else None
     return None
 
 
