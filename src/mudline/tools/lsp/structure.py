@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import groupby, islice
+from itertools import groupby
 
 from lsprotocol import types
 from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, String, _TokenType
@@ -14,9 +14,8 @@ from mudline.language.deck.forms import form_of
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import DeckError, Span, Where
 from mudline.language.highlighting.lexer import DeckLexer
-from mudline.language.keywords.model import Part, record_schema
+from mudline.language.keywords.model import record_schema
 from mudline.language.keywords.reader import ReadBlock
-from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.language.syntax.tree import LeafKind, RawBlock
 from mudline.tools.lsp.decks import Analysis, OpenDocument, failed, units_of
@@ -102,8 +101,8 @@ def _records(analysis: Analysis, read: ReadBlock, stop: int) -> Iterator[types.D
     block = read.model
     for slot in record_schema(type(block)).slots:
         records = getattr(block, slot.name, None) if slot.record else None
-        named = [(index, _name(record)) for index, record in enumerate(records or ())]
-        shown = [(index, name) for index, name in islice(named, MOST_OUTLINED) if name]
+        named = [(index, record.known_as()) for index, record in enumerate((records or ())[:MOST_OUTLINED])]
+        shown = [(index, name) for index, name in named if isinstance(name, str)]
         if not shown:
             continue
         spans = [read.places.find((slot.json, index)) for index, _ in shown]
@@ -111,16 +110,6 @@ def _records(analysis: Analysis, read: ReadBlock, stop: int) -> Iterator[types.D
         kind = types.SymbolKind.Variable if block.facts.defines == "parameters" else types.SymbolKind.Object
         for (_, name), span, end in zip(shown, spans, ends, strict=True):
             yield _symbol(analysis, name, kind, span, end)
-
-
-def _name(record: Part) -> str:
-    """Return the name that a record gives or is found by."""
-    for slot in record_schema(type(record)).slots:
-        named = slot.about.defines is not None or slot.about.names is Names.SET or slot.key == "NAME"
-        value = getattr(record, slot.name, None) if named and slot.kind is Kind.NAME and not slot.many else None
-        if isinstance(value, str) and value:
-            return value
-    return ""
 
 
 # ----------------------------------------------------------------------------------------------------------- folding
