@@ -13,8 +13,8 @@ from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
 from mudline.language.expression.evaluation import CONSTANTS
 from mudline.language.expression.parsing import ExpressionError, parse
-from mudline.language.keywords.model import Block, FieldSpec, Part
-from mudline.language.keywords.reader import schemas_of
+from mudline.language.keywords.model import Block, FieldSpec, Part, Path
+from mudline.language.keywords.reader import ReadBlock, schemas_of
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.fields import canonical_key, first_key, read_line
 from mudline.language.syntax.tree import LeafKind
@@ -80,7 +80,7 @@ def _given(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
         if kind not in KINDS or read is None:
             continue
         if kind is Names.PARAMETER and role == "defines":
-            yield from _parameters(origin, where, cast("Block", deck.sections[where.section].blocks[where.block]))
+            yield from _parameters(read, where.path)
         elif read.places.has(where.path):
             span = _inner(origin, read.places.find(where.path))
             yield Occurrence(thing(KINDS[kind], name), name, span, defines=role == "defines")
@@ -94,18 +94,17 @@ def _inner(origin: TextOrigin, span: Span) -> Span:
     return Span(start, start + len(name))
 
 
-def _parameters(origin: TextOrigin, where: Where, block: Block) -> Iterator[Occurrence]:
+def _parameters(read: ReadBlock, path: Path) -> Iterator[Occurrence]:
     """Yield the parameters that a line defines: one, or those of a list."""
-    parameter = block.parameters[int(where.path[1])]  # type: ignore[attr-defined]
+    parameter = read.model.at(path[:-1])[1]
     name, value = cast("str", parameter.name), cast("object", parameter.value)
-    places = origin.read[where.section, where.block].places
     if isinstance(value, str) and value.startswith("/"):
-        span = places.find((*where.path[:-1], "value"))
+        span = read.places.find((*path[:-1], "value"))
         for item in list_items(name, value)[0]:
             place = Span(span.start + item.start, span.start + item.start + len(item.value))
             yield Occurrence(thing(Names.PARAMETER, item.name), item.name, place, defines=True, composed=True)
         return
-    yield Occurrence(thing(Names.PARAMETER, name), name, places.find(where.path), defines=True)
+    yield Occurrence(thing(Names.PARAMETER, name), name, read.places.find(path), defines=True)
 
 
 def _passed_through(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
