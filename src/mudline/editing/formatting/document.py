@@ -102,19 +102,17 @@ class _DocumentLayout:
 
     def edits(self) -> list[TextEdit]:
         """Return all edits, in any order."""
-        tree = self.origin.tree
-        self._stray(tree.preamble.leaves)
-        for index, section in enumerate(tree.sections):
-            if section.head:
-                self._head("$" + section.name, section.head)
-            self._stray(section.leaves)
-            for number, block in enumerate(section.blocks):
-                self._head("*" + block.name, block.head)
-                read = self.origin.read.get((index, number))
-                if read is None:
-                    self._kept(block.leaves)
-                else:
-                    self._block(block, read)
+        for where, section, block in self.origin.tree.spots:
+            if block is None:
+                if section.head:
+                    self._head("$" + section.name, section.head)
+                self._stray(section.leaves)
+                continue
+            self._head("*" + block.name, block.head)
+            if read := self.origin.read.get(where[:2]):
+                self._block(block, read)
+            else:
+                self._kept(block.leaves)
         for span in self.blanks:
             self._put(span, "")
         return self.collected

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from difflib import SequenceMatcher
 from itertools import chain
 
+from mudline.basics.spelling import common_start
 from mudline.language.codes import DOC002
 from mudline.language.deck.keyword_text import canonical_text, lines_of, to_keyword
 from mudline.language.deck.model import Deck
@@ -110,8 +111,8 @@ def _changed(source: Source, span: Span, old: Lines, new: Lines, *, by_lines: bo
     text = source.unified
     lines = [Span(line.start, line.start + len(text[slice(*line)].rstrip("\r\n"))) for line in line_spans(text, span)]
     lines = [line for line in lines if text[slice(*line)].strip()]
-    same = _common(old, new)
-    rest = _common(old[same:][::-1], new[same:][::-1])
+    same = common_start(old, new)
+    rest = common_start(old[same:][::-1], new[same:][::-1])
     middle = range(same, len(old) - rest)
     if not lines:
         yield TextEdit(Span(span.start, span.start), "".join(f"{line}\n" for line in new))
@@ -132,13 +133,6 @@ def _changed(source: Source, span: Span, old: Lines, new: Lines, *, by_lines: bo
             # Each line goes with the line end before it: every piece but the preamble begins with its head.
             begin = lines[first - 1].end if first else span.start
             yield TextEdit(Span(begin, lines[last - 1].end if last > first else begin), added)
-
-
-def _common(old: Lines, new: Lines) -> int:
-    """Return the number of lines that both begin with."""
-    return next(
-        (at for at, (one, two) in enumerate(zip(old, new, strict=False)) if one != two), min(len(old), len(new))
-    )
 
 
 def _fields(source: Source, line: Span, old: str, new: str) -> Iterator[TextEdit]:
