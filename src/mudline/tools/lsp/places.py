@@ -7,7 +7,7 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from typing import NamedTuple, cast
 
-from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import bare, folded, list_items, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
@@ -61,7 +61,7 @@ def occurrences(deck: Deck) -> list[Occurrence]:
         return []
     listed = [*_given(deck, origin), *_in_equations(origin)]
     known = {place.thing for place in listed if place.defines}
-    listed += [place for place in (*_placeholders(origin), *_passed_through(deck, origin)) if place.thing in known]
+    listed += [place for place in (*_placeholders(origin), *_passed_through(origin)) if place.thing in known]
     return sorted(listed, key=lambda place: place.span)
 
 
@@ -107,16 +107,15 @@ def _parameters(read: ReadBlock, path: Path) -> Iterator[Occurrence]:
     yield Occurrence(thing(Names.PARAMETER, name), name, read.places.find(path), defines=True)
 
 
-def _passed_through(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
+def _passed_through(origin: TextOrigin) -> Iterator[Occurrence]:
     """Yield the sets that SET= names in blocks whose lines are not read."""
     text = origin.source.unified
-    for section, raw_section in zip(deck.sections, origin.tree.sections, strict=False):
-        for block, raw in zip(section.blocks, raw_section.blocks, strict=False):
-            for leaf in raw.leaves if type(block) is Opaque else ():
-                if leaf.kind is LeafKind.SETTING and first_key(text, leaf.span) == _SET:
-                    value = read_line(text, leaf.span).groups[0].fields[0]
-                    span = _inner(origin, value.span)
-                    yield Occurrence(thing(Names.SET, value.text), value.text, span, defines=False)
+    for where, _, block in origin.tree.spots:
+        for leaf in block.leaves if block and where[:2] not in origin.read else ():
+            if leaf.kind is LeafKind.SETTING and first_key(text, leaf.span) == _SET:
+                value = read_line(text, leaf.span).groups[0].fields[0]
+                span = _inner(origin, value.span)
+                yield Occurrence(thing(Names.SET, value.text), value.text, span, defines=False)
 
 
 # -------------------------------------------------------------------------------------------------------- equations
