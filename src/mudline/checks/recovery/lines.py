@@ -87,6 +87,7 @@ def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
 class Blocks:
     """Blocks of a deck's text by their place.
 
+    at: finds the section or block around an offset.
     blocks: all blocks, each with the name of its section.
     keywords: names of all blocks.
     """
