@@ -94,7 +94,7 @@ def _with_faults(deck: Deck, view: View) -> Deck:
     made, places = with_raw_lines(require_text(deck))
     for where in places:
         line = deck.place(Problem(SYN001, "", where=where)).line
-        keyword = deck.at(where).keyword
+        keyword = deck.sections[where.section].blocks[where.block].keyword
         view.note(f"{deck.file}:{line}: *{keyword} is carried as its lines: it has errors")
     return made
 
