@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from mudline.basics.limits import LONGEST_MISSPELT, SPELLING_EFFORT
 
@@ -19,6 +20,11 @@ class Effort:
     """
 
     left: int = SPELLING_EFFORT
+
+
+def common_start(first: Sequence[object], second: Sequence[object]) -> int:
+    """Return the number of characters or items that both begin with."""
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, second, strict=False)))
 
 
 def nearest(word: str, known: Iterable[str], effort: Effort | None = None) -> str:

@@ -283,16 +283,15 @@ class StageReader(NamedTuple):
 
 def _same_elsewhere(before: FixState, after: FixState, edits: Sequence[TextEdit]) -> bool:
     """Return True if both have the same blocks, with equal models where nothing was edited."""
-    if _outline(before.context.deck) != _outline(after.context.deck):
+    old, new = before.context.deck, after.context.deck
+    if _outline(old) != _outline(new):
         return False
-    stages = (before.text.tree.sections, before.context.deck.sections, after.context.deck.sections)
-    for raw, own, edited in zip(*stages, strict=True):
-        for block, model, edited_model in zip(raw.blocks, own.blocks, edited.blocks, strict=True):
-            start, end = block.span
-            touched = any(edit.span.start <= end and start <= edit.span.end for edit in edits)
-            if not touched and model != edited_model:
-                return False
-    return True
+    blocks = [spot for spot in before.text.tree.spots if spot.where.section >= 0 and spot.block]
+    return all(
+        any(edit.span.start <= block.span.end and block.span.start <= edit.span.end for edit in edits)
+        or old.at(block.where) == new.at(block.where)
+        for block in blocks
+    )
 
 
 def _outline(deck: Deck) -> list[tuple[str, list[str]]]:

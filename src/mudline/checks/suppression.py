@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 import re
-from bisect import bisect_right
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -23,10 +22,10 @@ from mudline.basics.spelling import nearest
 from mudline.checks.context import LintContext
 from mudline.checks.registry import find, rules
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import Code, Diagnostic, Problem, Repair, Severity, Span, Where
+from mudline.language.diagnostics import Code, Diagnostic, Problem, Repair, Severity, Span
 from mudline.language.rules import Rule, first_reported
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Leaf, LeafKind
+from mudline.language.syntax.tree import LeafKind
 
 STY010 = Code("STY010", "unused-suppression", Severity.WARNING)
 
@@ -37,7 +36,6 @@ _ORDER = re.compile(r"[\w-]+")
 _WORD = re.compile(r"[^,\s]+")
 _REASON = r"(?:(?<=[\s,])|^)--(?=\s|$)"
 _PLACES = {"ignore": "the next line", "ignore-block": "this block", "ignore-file": "this file"}
-_NOWHERE = ("outside",)
 """Scope of lines outside of any block."""
 _NOTHING = ("nothing",)
 """Scope of a comment that applies to nothing."""
@@ -83,7 +81,6 @@ class Suppressions:
     origin: TextOrigin
     directives: list[Directive] = field(default_factory=list)
     misspelt: list[tuple[Word, str]] = field(default_factory=list)
-    blocks: list[tuple[int, Hashable]] = field(default_factory=list)
 
     def split(self, problems: Sequence[Problem], chosen: Iterable[Rule]) -> tuple[list[Problem], list[Problem]]:
         """Return the problems that are reported, and those that are hidden.
@@ -124,9 +121,8 @@ class Suppressions:
 
     def _scopes(self, problem: Problem) -> tuple[Hashable, ...]:
         line = self.origin.place(problem).line
-        at = bisect_right(self.blocks, line, key=lambda start: start[0]) - 1
-        block = self.blocks[at][1] if at >= 0 else _NOWHERE
-        return (("line", line), block, ("file",))
+        block = self.origin.tree.at(self.origin.source.offset(line, 1))
+        return (("line", line), block.where, ("file",))
 
     def _unused(self, problems: Iterable[Problem], selected: set[str]) -> Iterator[Problem]:
         present: dict[Hashable, set[str]] = {}  # codes of the findings in every scope
@@ -180,9 +176,9 @@ def suppressions(context: LintContext) -> Suppressions | None:
         return None
     suppressions_ = Suppressions(origin)
     waiting: list[Directive] = []
-    for leaf, where in _placed(origin, suppressions_.blocks):
+    for leaf in origin.tree.leaves():
         if leaf.kind is LeafKind.COMMENT:
-            directive = _directive(text, leaf.span, where, suppressions_)
+            directive = _directive(text, leaf.span, suppressions_)
             if directive is not None and directive.order == "ignore":
                 waiting.append(directive)
         elif leaf.kind is not LeafKind.BLANK:
@@ -193,21 +189,7 @@ def suppressions(context: LintContext) -> Suppressions | None:
     return suppressions_
 
 
-def _placed(origin: TextOrigin, blocks: list[tuple[int, Hashable]]) -> Iterator[tuple[Leaf, Where]]:
-    """Yield the leaves in their order with their block; the first lines of blocks are added to `blocks`."""
-    for index, section in enumerate((origin.tree.preamble, *origin.tree.sections), -1):
-        if section.head is not None:
-            blocks.append((origin.source.position(section.head.span.start)[0], _NOWHERE))
-            yield section.head, Where(index)
-        yield from ((leaf, Where(index)) for leaf in section.leaves)
-        for number, block in enumerate(section.blocks):
-            where = Where(index, number)
-            blocks.append((origin.source.position(block.head.span.start)[0], where))
-            yield block.head, where
-            yield from ((leaf, where) for leaf in block.leaves)
-
-
-def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Directive | None:
+def _directive(text: str, leaf: Span, found: Suppressions) -> Directive | None:
     mark = MARK.match(text, *leaf)
     order = _ORDER.match(text, mark.end(), leaf.end) if mark else None
     if order is None:
@@ -226,8 +208,8 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
     directive.reason = text[order.end() + reason.end() : end].strip() if reason else ""
     if name == "ignore-file":
         directive.scope = ("file",)
-    elif name == "ignore-block" and where.block >= 0:
-        directive.scope = where
+    elif name == "ignore-block" and (spot := found.origin.tree.at(leaf.start)).block:
+        directive.scope = spot.where
     found.directives.append(directive)
     return directive
 

@@ -106,8 +106,9 @@ def test_encoding_and_mark_of_the_file_stay(tmp_path: Path) -> None:
     assert file.read_bytes() == data.replace(b"9.81", b"9.8")
 
 
-def test_a_block_without_a_line_for_each_canonical_one_is_written_anew_as_a_whole() -> None:
-    text = DECK.replace("   STIFFNESS = clay\n FRICTION=0.3,0.5", "   STIFFNESS = clay, FRICTION=0.3,0.5")
+@pytest.mark.parametrize("lines", ["   STIFFNESS = clay, FRICTION=0.3,0.5", " FRICTION=0.3,0.5\n   STIFFNESS = clay"])
+def test_a_block_whose_lines_are_not_the_canonical_ones_is_written_anew_as_a_whole(lines: str) -> None:
+    text = DECK.replace("   STIFFNESS = clay\n FRICTION=0.3,0.5", lines)
     found = mudline.from_keyword(text)
     found.set("SEABED PROPERTIES[ALL].friction", (0.4, 0.5))
     assert written(found) == DECK.replace("   STIFFNESS = clay\n FRICTION=0.3,", " STIFFNESS=clay\n FRICTION=0.4, ")

@@ -16,7 +16,6 @@ from mudline.language.syntax.edits import (
     Undoing,
     apply_edits,
     edited_bytes,
-    edited_text,
     line_end_before,
 )
 from mudline.language.syntax.source import Source
@@ -85,7 +84,7 @@ def test_the_line_end_of_the_nearest_line_before(text: str, offset: int, end: st
 def test_inserted_lines_end_as_the_line_before_them() -> None:
     mixed = source(b"one\r\ntwo\nthree\rfour")
     edits = [edit(5, 5, "x\ny\n"), edit(9, 9, "x\ny\n"), edit(15, 15, "x\ny\r\n"), edit(0, 3, "1\n1")]
-    assert edited_text(mixed, edits) == "1\r\n1\r\nx\r\ny\r\ntwo\nx\ny\nthree\rx\ry\r\nfour"
+    assert edited_bytes(mixed, edits) == b"1\r\n1\r\nx\r\ny\r\ntwo\nx\ny\nthree\rx\ry\r\nfour"
 
 
 def test_the_encoding_and_the_mark_stay() -> None:

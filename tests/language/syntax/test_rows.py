@@ -170,6 +170,6 @@ def test_a_number_is_finite_and_what_python_reads(text: str) -> None:
 @example("1]=[2],3", 2)
 def test_a_row_of_simple_equations_is_cut_as_any_row(body: str, columns: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        found = reader._row_words(body, columns)
+        found = reader.row_words(body, columns)
         patch.setattr(reader, "_ONLY_EQUATIONS", re.compile("(?!)"))
-        assert found == reader._row_words(body, columns)
+        assert found == reader.row_words(body, columns)

@@ -203,10 +203,10 @@ class _Round:
         if correction.certain or correction.cause.code in _OF_SECTIONS:
             return True
         edits = correction.edits
-        start = self.blocks.block_at(max(edits[0].span.start - correction.joins, 0)).start
-        end = self.blocks.block_at(edits[-1].span.end - (edits[-1].span.end > edits[0].span.start)).end
-        section = self.blocks.section_name(start)
-        region = Span(start, max(end, edits[-1].span.end))
+        first = self.blocks.at(max(edits[0].span.start - correction.joins, 0))
+        last = self.blocks.at(edits[-1].span.end - (edits[-1].span.end > edits[0].span.start))
+        section = first.section.name
+        region = Span(first.span.start, max(last.span.end, edits[-1].span.end))
         if not section or region.end - region.start > LONGEST_TRIED or self.trials <= 0:
             return False
         self.trials -= 1 + (region.end - region.start) // OF_A_TRIAL
@@ -249,7 +249,8 @@ def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction
         problem, repair = min(uses, key=lambda use: start_of(text, use[0]))
         edits = tuple(TextEdit(*edit) for edit in sorted(chain.from_iterable(each.edits for _, each in uses)))
         start = edits[0].span.start
-        region = blocks.section_at(start) if problem.code is SYN010 else blocks.block_at(start)
+        spot = blocks.at(start)
+        region = spot.section.span if problem.code is SYN010 else spot.span
         others = [use for use, _ in uses if use is not problem]
         message = f"{problem.message}; {also_in(text, others)}" if others else ""
         if all(_differs(text.source.unified[slice(*edit.span)], edit.text) for edit in edits):
@@ -270,7 +271,7 @@ def before_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Cor
     run = [(head.start, block.name) for head, block in zip(heads, tree.preamble.blocks, strict=True)]
     if not run or any(head not in outside for head, _ in run):  # a deck of another program is reported once
         return
-    end = tree.sections[0].head.span.start if tree.sections and tree.sections[0].head else blocks.end
+    end = tree.preamble.span.end
     start, name = run[0]
     if name in catalogue.SECTIONS:
         message = f"*{name} is no keyword: write ${name}"

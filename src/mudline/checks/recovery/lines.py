@@ -6,7 +6,7 @@ Here are also the input of a corrector, the blocks of a deck's text, and its out
 from __future__ import annotations
 
 import re
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
@@ -87,6 +87,7 @@ def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
 class Blocks:
     """Blocks of a deck's text by their place.
 
+    at: finds the section or block around an offset.
     blocks: all blocks, each with the name of its section.
     keywords: names of all blocks.
     """
@@ -94,38 +95,15 @@ class Blocks:
     def __init__(self, deck: Deck, text: TextOrigin) -> None:
         self.deck = deck
         self.text = text
-        self.end = len(text.source.unified)
-        self._sections = (text.tree.preamble, *text.tree.sections)
-        self.blocks = [(section.name, block) for section in self._sections for block in section.blocks]
+        self.at = text.tree.at
+        self.blocks = [(spot.section.name, spot.block) for spot in text.tree.spots if spot.block]
         self.keywords = {block.name for _, block in self.blocks}
-        self._heads = [section.head.span.start if section.head else 0 for section in self._sections]
-        self._block_starts = [block.head.span.start for _, block in self.blocks]
-        self._starts = sorted([*self._heads, *self._block_starts])
         self._missing: dict[Names, list[str]] = {}
-
-    def block_at(self, offset: int) -> Span:
-        """Return the span from the head of the block (or section) around an offset to the next head."""
-        return self._around(self._starts, offset)
-
-    def section_at(self, offset: int) -> Span:
-        """Return the span from the head of the section around an offset to the next one."""
-        return self._around(self._heads, offset)
-
-    def _around(self, starts: list[int], offset: int) -> Span:
-        at = bisect_right(starts, offset)
-        return Span(starts[at - 1] if at else 0, starts[at] if at < len(starts) else self.end)
 
     def declared_at(self, offset: int) -> type[Block] | None:
         """Return the declaration of the block around an offset; None if its lines are not read."""
-        at = bisect_right(self._block_starts, offset)
-        block = self.blocks[at - 1][1] if at else None
-        if block is None or offset >= block.span.end:  # above the first block, or after the lines of a block
-            return None
-        return catalogue.block_class(self.section_name(offset), block.name)
-
-    def section_name(self, offset: int) -> str:
-        """Return the name of the section around an offset, "" before the first."""
-        return self._sections[max(bisect_right(self._heads, offset) - 1, 0)].name
+        spot = self.at(offset)
+        return catalogue.block_class(spot.section.name, spot.keyword)
 
     @cached_property
     def _names(self) -> list[NamedPlace]:
@@ -182,7 +160,7 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
             code = SYN013 if comment else known.code if known else SYN001
             cause = Problem(code, message, place, known.weight if known and not comment else None)
             certain = name[0] == "$" or section.name in (catalogue.sections_of(name[1:]) or ())
-            lines = Span(line.start, blocks.block_at(line.start).end)
+            lines = Span(line.start, blocks.at(line.start).span.end)
             yield Correction(cause, (TextEdit(own, name),), lines, does=f"write {name}", certain=certain)
 
 
@@ -216,7 +194,7 @@ def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem,
     line = blocks.text.source.unified.rfind("\n", 0, at) + 1
     settings = [leaf.span.start for leaf in block.leaves if leaf.kind is LeafKind.SETTING and leaf.span.start < line]
     first = next((leaf.span.start for leaf in data_of(block.leaves)), end)
-    declared = blocks.declared_at(at)
+    declared = catalogue.block_class(section, block.name)
     key = first_key(blocks.text.source.unified, blocks.text.source.line_around(line))
     is_own = declared is not None and cause.code in (SYN002, SYN003) and key in all_keys(declared)  # a value is wrong
     places = [*([] if is_own else [line]), *settings[-1:]]
@@ -314,7 +292,7 @@ def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correct
     """Yield corrections of lines that a block can have, but that belong to another keyword, which is missing."""
     text = blocks.text
     worse = (one for one in problems if one.weight is not Severity.INFO)
-    wrong = {blocks.block_at(start_of(text, one)).start for one in worse}
+    wrong = {blocks.at(start_of(text, one)).span.start for one in worse}
     for number, section in enumerate(text.tree.sections):
         present = {block.name for block in section.blocks}
         for index, block in enumerate(section.blocks):

@@ -183,7 +183,7 @@ def _names(
 
 def _own_name(context: LintContext, where: Where) -> str:
     """Return the folded name that the record around a place defines, "" if it defines none."""
-    record = context.scene.context.as_written(where._replace(path=where.path[:2]))
+    record = context.scene.context.written.at(where._replace(path=where.path[:2]))
     names = (name for _, name in names_given(record, Names.SET, "defines")) if isinstance(record, Part) else ()
     return name_key(next(iter(names), ""))
 

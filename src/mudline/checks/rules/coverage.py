@@ -426,7 +426,7 @@ def _points(scene: Scene, grant: SetLaw) -> Floats:
 
 def _entry(scene: Scene, grant: SetLaw) -> Any:  # noqa: ANN401 - an entry of a keyword that is imported when it is read
     """Return the entry of *SEABED PROPERTIES that gives a law."""
-    return scene.deck.sections[grant.where.section].blocks[grant.where.block].at(grant.where.path[:2])[1]
+    return scene.deck.at(grant.where._replace(path=grant.where.path[:2]))
 
 
 def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:

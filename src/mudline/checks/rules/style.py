@@ -61,14 +61,11 @@ def placed_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock | None, bo
 
     Each comes with its block, if that has a model, and True if it stands in a block without one.
     """
-    preamble = text.tree.preamble
-    yield from ((leaf, None, False) for leaf in preamble.leaves)
-    yield from ((leaf, None, False) for block in preamble.blocks for leaf in block.leaves)
-    for index, section in enumerate(text.tree.sections):
-        yield from ((leaf, None, False) for leaf in section.leaves)
-        for number, block in enumerate(section.blocks):
-            read = text.read.get((index, number))
-            yield from ((leaf, read, read is None) for leaf in block.leaves)
+    for spot in text.tree.spots:
+        section, block = where = spot.where[:2]
+        read = text.read.get(where)
+        kept = read is None and section >= 0 and block >= 0
+        yield from ((leaf, read, kept) for leaf in spot.part.leaves)
 
 
 def data_blocks(text: TextOrigin) -> Iterator[tuple[ReadBlock, list[Leaf]]]:
@@ -207,9 +204,8 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
 
 
 def head_lines(text: TextOrigin) -> Iterator[Span]:
-    """Yield every line that begins a section or a keyword."""
-    for section in (text.tree.preamble, *text.tree.sections):
-        yield from (head.span for head in (section.head, *(block.head for block in section.blocks)) if head)
+    """Return every line that begins a section or a keyword."""
+    return (spot.part.head.span for spot in text.tree.spots if spot.part.head)
 
 
 @rule(STY010)

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
-from itertools import pairwise
+from itertools import chain, pairwise
 from types import SimpleNamespace
 from typing import NamedTuple, cast
 
@@ -35,7 +35,7 @@ from mudline.language.codes.fields import SYN015
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Code, Problem, Where
 from mudline.language.keywords.contents import in_words
-from mudline.language.keywords.model import FieldSpec, Part, Path, Rows, record_schema
+from mudline.language.keywords.model import FieldSpec, Part, Rows, fields_of, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.usual import BENT, Usual
@@ -74,7 +74,7 @@ def _by_code(context: LintContext) -> dict[str, list[Problem]]:
 
 def _of_deck(deck: Numbers) -> list[Judged]:
     read = ((where, block) for where, _, block in deck.context.scene.deck.every_block() if type(block) is not Opaque)
-    own = [judged for where, block in read for judged in _inside(deck, block, None, where)]
+    own = [judged for where, block in read for judged in _inside(deck, block, where)]
     return [*own, *_in_files(deck)]
 
 
@@ -107,36 +107,35 @@ class Judged(NamedTuple):
     explains: Sequence[FieldSpec]
 
 
-def _inside(deck: Numbers, part: Part, holder: Part | None, where: Where, path: Path = ()) -> Iterator[Judged]:
-    """Yield unusual values in a part and in the parts inside it, merged to one finding of each code for a part.
+def _inside(deck: Numbers, block: Part, where: Where) -> Iterator[Judged]:
+    """Yield unusual values in a block, merged to one finding of each code for a part."""
+    parts = ((path, part) for path, _, part in block.walk(_is_judged) if isinstance(part, Part))
+    for path, part in chain([((), block)], parts):
+        own, listed = _judged(type(part), deck.units)
+        suspects = [
+            (slot, math.nan if isinstance(value, Part) else float(value))
+            for slot, low, high in own
+            if isinstance(value := getattr(part, slot.name, None), float | int | Part)
+            and (isinstance(value, Part) or not low <= value <= high)
+        ]
+        tables = [(slot, value) for slot in listed if (value := getattr(part, slot.name, None))]
+        if suspects or tables:
+            holder = block.at(path[: -2 if isinstance(path[-1], int) else -1])[1] if path else None
+            place, columns = where.inside(*path), record_schema(type(part)).slots
+            of = replace(deck, part=part, holder=holder, where=place, columns=columns)
+            yield from _of_row([entry for slot, value in suspects for entry in _compared(of, slot, value, slot.json)])
+            for slot, table in tables:
+                yield from _in_table(of, slot, table)
 
-    `where` is the block, and `path` leads to the part in it.
-    """
-    own, outer = _judged(type(part), deck.units)
-    suspects = [
-        (slot, math.nan if isinstance(value, Part) else float(value))
-        for slot, low, high in own
-        if isinstance(value := getattr(part, slot.name, None), float | int | Part)
-        and (isinstance(value, Part) or not low <= value <= high)
-    ]
-    held = [(slot, value) for slot in outer if (value := getattr(part, slot.name, None))]
-    tables = [(slot, value) for slot, value in held if isinstance(value, Table)]
-    if suspects or tables:
-        of = replace(deck, part=part, holder=holder, where=where.inside(*path), columns=record_schema(type(part)).slots)
-        yield from _of_row([entry for slot, value in suspects for entry in _compared(of, slot, value, slot.json)])
-        for slot, table in tables:
-            yield from _in_table(of, slot, table)
-    for slot, value in held:
-        if isinstance(value, Part):
-            yield from _inside(deck, value, part, where, (*path, slot.json))
-        for index, item in enumerate(value if isinstance(value, list) else ()):
-            if isinstance(item, Part) and any(_judged(type(item), deck.units)):
-                yield from _inside(deck, item, part, where, (*path, slot.json, index))
+
+def _is_judged(slot: FieldSpec) -> bool:
+    """Return True if a field holds parts or a table with usual values."""
+    return any(inner.usuals for part in slot.parts for inner in fields_of(part))
 
 
 @lru_cache(512)
 def _judged(part: type[Part], units: DeckUnits) -> tuple[list[tuple[FieldSpec, float, float]], list[FieldSpec]]:
-    """Return the fields of a part that have usual values, and those that hold tables or parts with such fields.
+    """Return the fields of a part that have usual values, and its tables that have them.
 
     Each field has the range (as in the deck) that needs no check. If a field compares more than the number itself,
     every value needs a check: the range is NaN.
@@ -147,8 +146,7 @@ def _judged(part: type[Part], units: DeckUnits) -> tuple[list[tuple[FieldSpec, f
         low, high = max(usual.low for usual in usuals), min(usual.high for usual in usuals)
         plain = not any(usual.of for usual in usuals)
         ranges.append((slot, low / size if plain else math.nan, high / size if plain else math.nan))
-    slots = [slot for slot in record_schema(part).slots if slot.parts]
-    return ranges, [slot for slot in slots if slot.usuals or any(any(_judged(sub, units)) for sub in slot.parts)]
+    return ranges, [slot for slot in record_schema(part).tables if slot.usuals or _is_judged(slot)]
 
 
 def _of_row(row: Sequence[Judged]) -> Iterator[Judged]:

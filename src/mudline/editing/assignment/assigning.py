@@ -123,8 +123,7 @@ def set_value(deck: Deck, path: str, value: object) -> None:
     *holder, name, row, column = current.where.path
     rows: list[list[object]] = [list(cells) for cells in current.owner]
     rows[int(row)][int(column)] = value
-    block = deck.sections[current.where.section].blocks[current.where.block]
-    record: Part = block.at(tuple(holder))[1]
+    record: Part = deck.at(current.where._replace(path=tuple(holder)))
     setattr(record, next(slot.name for slot in record_schema(type(record)).slots if slot.json == name), rows)
 
 
@@ -233,6 +232,6 @@ def _set_cell(table: Table, after: Deck, where: Where) -> None:
 def _at(deck: Deck, where: Where) -> object:
     """Return the object at a place of a deck; None if there is none."""
     try:
-        return deck.sections[where.section].blocks[where.block].at(where.path)[1]
+        return deck.at(where)
     except IndexError:
         return None

@@ -202,8 +202,8 @@ def _values(parts: list[Part], where: Where, field: DeclaredField, selectors: Se
 def _fits(parts: Sequence[Part], selector: Selector) -> bool:
     """Return True if a selector matches the innermost of nested parts that has its field."""
     for part in reversed(parts):
-        slots = record_schema(type(part)).slots
-        for slot in slots if selector.name else [slot for slot in slots if slot.kind is Kind.NAME][:1]:
+        schema = record_schema(type(part))
+        for slot in schema.slots if selector.name else filter(None, [schema.name]):
             if not selector.name or selector.name in _names_of(slot):
                 value = getattr(part, slot.name, None)
                 if value is None and slot.kind is Kind.NAME:

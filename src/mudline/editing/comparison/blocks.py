@@ -15,7 +15,6 @@ from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, Rows, record_schema
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.values import Kind, Names
 from mudline.language.keywords.writer import field_text, joined
 
 _KEYS = {"set", "name", "curve"}
@@ -48,9 +47,8 @@ def record_values(side: Side, record: Record, where: Where) -> dict[str, object]
 
 def key_slot(record: type[Record]) -> FieldSpec | None:
     """Return the field that identifies a record of a list: its set, or its own name."""
-    own = (None, Names.SET)
-    slots = (slot for slot in record_schema(record).slots if not slot.row and not slot.many and slot.about.names in own)
-    return next((s for s in slots if s.kind is Kind.NAME and {s.json, s.key.casefold()} & _KEYS), None)
+    slot = record_schema(record).name
+    return slot if slot and {slot.json, slot.key.casefold()} & _KEYS else None
 
 
 def _identity(record: Record) -> str | None:

@@ -107,7 +107,7 @@ class Side:
         """Return a block; as written if one of its equations has no value, so that their texts are compared."""
         if (where.section, where.block) not in self._valueless:
             return block
-        return cast("Block", self.scene.context.as_written(where))
+        return cast("Block", self.scene.context.written.at(where))
 
     @cached_property
     def _valueless(self) -> set[tuple[int, int]]:

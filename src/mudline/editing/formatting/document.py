@@ -102,19 +102,17 @@ class _DocumentLayout:
 
     def edits(self) -> list[TextEdit]:
         """Return all edits, in any order."""
-        tree = self.origin.tree
-        self._stray(tree.preamble.leaves)
-        for index, section in enumerate(tree.sections):
-            if section.head:
-                self._head("$" + section.name, section.head)
-            self._stray(section.leaves)
-            for number, block in enumerate(section.blocks):
-                self._head("*" + block.name, block.head)
-                read = self.origin.read.get((index, number))
-                if read is None:
-                    self._kept(block.leaves)
-                else:
-                    self._block(block, read)
+        for where, section, block in self.origin.tree.spots:
+            if block is None:
+                if section.head:
+                    self._head("$" + section.name, section.head)
+                self._stray(section.leaves)
+                continue
+            self._head("*" + block.name, block.head)
+            if read := self.origin.read.get(where[:2]):
+                self._block(block, read)
+            else:
+                self._kept(block.leaves)
         for span in self.blanks:
             self._put(span, "")
         return self.collected
@@ -200,39 +198,31 @@ class _BlockLayout:
         self.choices: dict[int, str] = {}
         self.whole: dict[int, str] = {}
         self.rows: AlignedRows | None = None
-        self._record(read.model, ())
+        self._rows_of(read.model, ())
+        for path, slot, value in read.model.walk():
+            self._value(path, slot, value)
 
-    def _record(self, record: Record, path: Path) -> None:
-        declared, spans = record_schema(type(record)), self.places.spans
-        plain = [slot for slot in declared.columns if not slot.row and not slot.many]
-        if plain and len(plain) == len(declared.columns) and (span := spans.get((*path, plain[0].json))):
-            self.kinds[self._begin(span.start)] = RowKind(plain[0], tuple(plain))
-            plain = []
-        for slot in declared.slots:
-            inner = (*path, slot.json)
-            value = getattr(record, slot.name)
-            if slot.record:
-                for index, child in enumerate(value):
-                    self._record(child, (*inner, index))
-            elif value is not None:
-                self._value(slot, value, inner)
-            if slot in plain and (span := spans.get(inner)):
-                self.kinds[self._begin(span.start)] = RowKind(slot, (slot,))
+    def _rows_of(self, record: Record, path: Path) -> None:
+        """Take the rows of a record: one of all its values, or one of each."""
+        columns = record_schema(type(record)).columns
+        plain = tuple(slot for slot in columns if not slot.row and not slot.many)
+        whole = plain and len(plain) == len(columns) and (*path, plain[0].json) in self.places.spans
+        for row in [plain] if whole else [(slot,) for slot in plain]:
+            if span := self.places.spans.get((*path, row[0].json)):
+                self.kinds[self._begin(span.start)] = RowKind(row[0], row)
 
-    def _value(self, slot: FieldSpec, value: object, path: Path) -> None:
-        """Take one field that is not a record."""
+    def _value(self, path: Path, slot: FieldSpec, value: object) -> None:
+        """Take one value, or one of the values of a field."""
         span = self.places.spans.get(path)
-        if isinstance(value, Table) and slot.row:
+        if isinstance(value, Record):
+            self._rows_of(value, path)
+        elif isinstance(value, Table) and slot.row:
             kind = RowKind(slot, tuple(record_schema(slot.row).columns), table=True)
             self.kinds |= {self._begin(run.start): kind for _, run in self.places.runs.get(path, ())}
-        elif isinstance(value, list):
-            if first := self.places.spans.get((*path, 0)):
-                self.kinds[self._begin(first.start)] = RowKind(slot, (slot,), many=True)
+        elif span and slot.many and path[-1] == 0:
+            self.kinds[self._begin(span.start)] = RowKind(slot, (slot,), many=True)
         elif span and isinstance(value, Row):
-            columns = record_schema(type(value)).columns
-            self.kinds[self._begin(span.start)] = RowKind(slot, tuple(columns))
-            for column in columns:
-                self._value(column, getattr(value, column.name), (*path, column.json))
+            self.kinds[self._begin(span.start)] = RowKind(slot, tuple(record_schema(type(value)).columns))
         elif span and slot.kind is not Kind.NAME and value in slot.choices:
             if self.text[slice(*span)].strip(" \t").upper() == str(value).upper():  # no control character in it
                 self.choices[span.start] = str(value)

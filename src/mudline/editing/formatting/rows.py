@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mudline.language.diagnostics import Span
 from mudline.language.keywords.model import FieldSpec
 from mudline.language.keywords.values import Kind
-from mudline.language.syntax.rows import GROUPED, PIECE, line_spans, row_fields
+from mudline.language.syntax.rows import PIECE, line_spans, row_words
 
 WIDEST = 32
 """Width above which a field, such as an equation, does not widen its column; later fields of its row shift right."""
@@ -260,14 +260,8 @@ _SHORT = 1000
 
 def word_rows(text: str, most: int) -> WordRows:
     """Return the rows of whole lines, cut to `most` fields, with any content."""
-    rows: list[list[str]] = []
-    for line in line_spans(text, Span(0, len(text))):
-        body = text[slice(*line)]
-        if "," not in body or GROUPED.search(body):
-            rows.append(cut([value.text for value in row_fields(text, line, most)]))
-        else:
-            rows.append(cut([piece.strip(" \t\r") for piece in body.split(",")[:most]]))
-    return WordRows(rows)
+    lines = line_spans(text, Span(0, len(text)))
+    return WordRows([cut(row_words(text[slice(*line)], most)[0]) for line in lines])
 
 
 @dataclass(slots=True)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Collection
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cache
 from typing import Any, cast
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
@@ -131,24 +130,15 @@ class LinesOrigin(TextOrigin):
             where = where if own else line
         return where
 
-    @cached_property
-    def _heads(self) -> list[tuple[int, Where]]:
-        """Lines of sections and keywords, each with its place."""
-        return [
-            (self.source.position(head.span.start)[0], Where(i, j))
-            for i, section in enumerate(self.tree.sections)
-            for j, head in enumerate([section.head, *(block.head for block in section.blocks)], -1)
-            if head
-        ]
-
     def _line(self, offset: int) -> Where:
         """The line of a block, a section or the preamble that an offset of the text is in, else the block."""
-        line = self.source.position(offset)[0]
-        at = bisect_right(self._heads, line, key=lambda head: head[0])
-        first, found = self._heads[at - 1] if at else (0, Where(path=("preamble", line - 1)))
-        if line > first > 0 and (found in self.raw or found.block < 0):
-            return found.inside("lines", line - first - 1)
-        return found
+        spot = self.tree.at(offset)
+        line, first = (self.source.position(place)[0] for place in (offset, spot.span.start))
+        if spot.where.section < 0:
+            return Where(path=("preamble", line - 1))
+        if line > first and (spot.block is None or spot.where in self.raw):
+            return spot.where.inside("lines", line - first - 1)
+        return spot.where
 
 
 def read_as_text(deck: Deck) -> Deck:

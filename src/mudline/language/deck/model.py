@@ -67,6 +67,7 @@ class Range(NamedTuple):
 _INTERNAL = frozenset(
     [
         "alone",
+        "at",
         "base_of",
         "bases",
         "blocks_with",
@@ -216,7 +217,11 @@ class Deck:
         index = where.section - len(self.sections) + len(places)
         return (places[index][0], where._replace(section=places[index][1])) if index >= 0 else None
 
-    def _at(self, where: Where) -> tuple[Deck, Where]:
+    def at(self, where: Where) -> Any:
+        """Return the block at a place, or the value in it; None for a value that the block does not have."""
+        return self.sections[where.section].blocks[where.block].at(where.path)[1]
+
+    def _owned_at(self, where: Where) -> tuple[Deck, Where]:
         return self.base_of(where) or (self, where)
 
     def _owned(self, problem: Problem) -> tuple[Deck, Problem]:
@@ -233,17 +238,17 @@ class Deck:
 
     def lost(self, where: Where) -> int:
         """Return the number of lines of a block that could not be used at all."""
-        deck, inner = self._at(where)
+        deck, inner = self._owned_at(where)
         return deck.origin.lost(inner.section, inner.block)
 
     def written(self, where: Where) -> bool:
         """Return True if the file of the value contains exactly this value."""
-        deck, inner = self._at(where)
+        deck, inner = self._owned_at(where)
         return deck.origin.written(inner)
 
     def folder_of(self, where: Where) -> Path | None:
         """Return the folder of the files that the deck names at a place."""
-        return self._at(where)[0].folder
+        return self._owned_at(where)[0].folder
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
         """Yield the modelled blocks of a keyword in all sections of a name, in the order of the file.

@@ -90,14 +90,10 @@ class TextOrigin(Origin):
     def kept_lines(self, section: int, block: int) -> list[str]:
         """Return the lines that a block keeps as they are, in the order of the file."""
         text = self.source.unified
-        return [text[slice(*span)].rstrip("\r\n") for span in self._kept_spans(section, block)]
+        return [text[slice(*span)] for span in self._kept_spans(section, block)]
 
     def _kept_spans(self, section: int, block: int) -> list[Span]:
-        return [self._line_at(start) for start in sorted(self.read[section, block].places.kept)]
-
-    def _line_at(self, start: int) -> Span:
-        end = self.source.unified.find("\n", start)
-        return Span(start, len(self.source.unified) if end < 0 else end)
+        return [self.source.line_around(start) for start in sorted(self.read[section, block].places.kept)]
 
     def _not_read(self, where: Where) -> Span:
         """Return the span of an unread line by its number, or of a piece of the line by its first and last offset."""
@@ -106,9 +102,8 @@ class TextOrigin(Origin):
         if part == "unread":
             line = self._kept_spans(where.section, where.block)[at]
         else:
-            line = self._line_at(self.tree.sections[where.section].blocks[where.block].leaves[0].span.start)
-            for _ in range(at):
-                line = self._line_at(line.end + 1)
+            first = self.tree.sections[where.section].blocks[where.block].leaves[0].span.start
+            line = self.source.line_span(self.source.position(first)[0] + at)
         if len(piece) == _ENDS:
             return Span(line.start + int(piece[0]), line.start + int(piece[1]))
         return trimmed(self.source.unified, *line)
@@ -185,9 +180,7 @@ class _DeckReader:
             if self._reports(SYN007, span, None):
                 message = f"*{block.name} stands before any $SECTION: put it in its section, {_belongs(block.name)}"
                 self.problems.append(Problem(SYN007, message, span))
-        first = self.tree.sections[0].head if self.tree.sections else None
-        end = first.span.start if first else len(self.text)
-        self.deck.preamble = _lines(self.text, Span(0, end)) if end else []
+        self.deck.preamble = _lines(self.text, preamble.span) if preamble.span.end else []
 
     def _of_deeplines(self) -> RawBlock | None:
         """Return a block of DeepLines, in a text without sections and commas: *SOIL, *TRENCH, or spaced rows."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from difflib import SequenceMatcher
-from itertools import chain, pairwise
+from itertools import chain
 
+from mudline.basics.spelling import common_start
 from mudline.language.codes import DOC002
 from mudline.language.deck.keyword_text import canonical_text, lines_of, to_keyword
 from mudline.language.deck.model import Deck
@@ -32,7 +33,8 @@ def keyword_file(deck: Deck) -> bytes:
         return text.encode()
     source = deck.origin.source
     old, new = _pieces(read_source(source, units=deck.units)), _pieces(deck)
-    spans = _spans(deck.origin)
+    tree = deck.origin.tree
+    spans = [tree.preamble.span, *(spot.span for spot in tree.spots if spot.where.section >= 0)]
     try:
         for by_lines in (True, False):
             try:
@@ -73,14 +75,6 @@ def _by_place(comments: Iterable[Comment], count: int) -> list[Lines]:
     return list(map(tuple, found))
 
 
-def _spans(origin: TextOrigin) -> list[Span]:
-    """Return the place of each piece of the text."""
-    sections = origin.tree.sections
-    heads = chain.from_iterable((section.head, *(block.head for block in section.blocks)) for section in sections)
-    starts = [0, *(head.span.start for head in heads if head), len(origin.source.text)]
-    return [Span(start, end) for start, end in pairwise(starts)]
-
-
 def _edits(source: Source, spans: list[Span], old: list[Lines], new: list[Lines], *, by_lines: bool) -> list[TextEdit]:
     """The edits that make the new pieces of the old ones."""
     found: dict[Span, TextEdit] = {}
@@ -117,8 +111,8 @@ def _changed(source: Source, span: Span, old: Lines, new: Lines, *, by_lines: bo
     text = source.unified
     lines = [Span(line.start, line.start + len(text[slice(*line)].rstrip("\r\n"))) for line in line_spans(text, span)]
     lines = [line for line in lines if text[slice(*line)].strip()]
-    same = _common(old, new)
-    rest = _common(old[same:][::-1], new[same:][::-1])
+    same = common_start(old, new)
+    rest = common_start(old[same:][::-1], new[same:][::-1])
     middle = range(same, len(old) - rest)
     if not lines:
         yield TextEdit(Span(span.start, span.start), "".join(f"{line}\n" for line in new))
@@ -139,13 +133,6 @@ def _changed(source: Source, span: Span, old: Lines, new: Lines, *, by_lines: bo
             # Each line goes with the line end before it: every piece but the preamble begins with its head.
             begin = lines[first - 1].end if first else span.start
             yield TextEdit(Span(begin, lines[last - 1].end if last > first else begin), added)
-
-
-def _common(old: Lines, new: Lines) -> int:
-    """Return the number of lines that both begin with."""
-    return next(
-        (at for at, (one, two) in enumerate(zip(old, new, strict=False)) if one != two), min(len(old), len(new))
-    )
 
 
 def _fields(source: Source, line: Span, old: str, new: str) -> Iterator[TextEdit]:

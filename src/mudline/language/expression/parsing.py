@@ -147,19 +147,12 @@ class Expression(NamedTuple):
         text: the text between `=[` and `]`.
         uses: every use of a name that is not a function, in the order of the text; constants such as `pi` are
             included, since a parameter may have that name.
-        functions: the functions called, as written, each spelling once, in the order of the text.
         root: the equation as a tree of parts.
     """
 
     text: str
     uses: tuple[Name, ...]
-    functions: tuple[str, ...]
     root: Node
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names in `uses`, each spelling once, in the order of first use."""
-        return tuple(dict.fromkeys(use.name for use in self.uses))
 
 
 SAME_OPERATOR = {"==": "=", "!=": "<>"}
@@ -188,14 +181,7 @@ def parse(text: str) -> Expression:
         raise _unexpected_token(text, error.token, _accepted(error)) from None
     except UnexpectedCharacters as error:
         raise _unexpected_character(text, cast("int", error.pos_in_stream), _accepted(error)) from None
-    names: list[Name] = []
-    functions: dict[str, None] = {}
-    for node in _nodes(text, root):
-        if isinstance(node, Name):
-            names.append(node)
-        elif isinstance(node, Call):
-            functions[node.name] = None
-    return Expression(text, tuple(names), tuple(functions), root)
+    return Expression(text, tuple(node for node in _nodes(text, root) if isinstance(node, Name)), root)
 
 
 def equation_grammar() -> Lark:

@@ -70,16 +70,15 @@ def _tokens(written: str) -> Iterator[Found]:
     """Yield the tokens of a text, without blanks and punctuation."""
     tree = parse(Source("", written))
     text = tree.source.unified
-    for section in (tree.preamble, *tree.sections):
-        if section.head:
-            known = section.name in catalogue.SECTIONS
-            yield trimmed(text, *section.head.span), Generic.Heading if known else Generic.Subheading
-        yield from (found for leaf in section.leaves for found in _leaf(text, leaf, None))
-        for block in section.blocks:
+    for _, section, block in tree.spots:
+        if block:
             known = block.name in catalogue.keywords()
             yield trimmed(text, *block.head.span), Keyword if known else Keyword.Pseudo
-            declared = catalogue.block_class(section.name, block.name)
-            yield from (found for leaf in block.leaves for found in _leaf(text, leaf, declared))
+        elif section.head:
+            known = section.name in catalogue.SECTIONS
+            yield trimmed(text, *section.head.span), Generic.Heading if known else Generic.Subheading
+        declared = catalogue.block_class(section.name, block.name) if block else None
+        yield from (found for leaf in (block or section).leaves for found in _leaf(text, leaf, declared))
 
 
 def _leaf(text: str, leaf: Leaf, declared: type[Block] | None) -> Iterator[Found]:

@@ -11,13 +11,12 @@ import re
 from collections.abc import Collection, Iterable
 from functools import cache, lru_cache
 from importlib import import_module
-from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
 from pydantic_core import from_json
 
-from mudline.basics.spelling import Effort, nearest
+from mudline.basics.spelling import Effort, common_start, nearest
 from mudline.language.diagnostics import Severity
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.names_only import GIVES, NAMES, ZERO_LENGTH
@@ -327,12 +326,8 @@ def words_behind(name: str, near: str) -> bool:
 def _begun(name: str, known: Collection[str]) -> str:
     """Return the known name with the longest common beginning, if this is most of both names; else ""."""
     head = name[: int(_SAME_BEGINNING * len(name))]
-    common, near = max(((_common(name, each), each) for each in known if each.startswith(head)), default=(0, ""))
+    common, near = max(((common_start(name, each), each) for each in known if each.startswith(head)), default=(0, ""))
     return near if common >= _SAME_BEGINNING * max(len(name), len(near)) else ""
-
-
-def _common(first: str, second: str) -> int:
-    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, second, strict=False)))
 
 
 def _before(name: str, known: Collection[str]) -> str:

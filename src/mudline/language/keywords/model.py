@@ -239,7 +239,7 @@ class Record(Part):
 
     def known_as(self) -> Any:
         """Return the name of the record or of its set, which is its first name field; None if it has none."""
-        slot = next((slot for slot in record_schema(type(self)).slots if slot.kind is Kind.NAME), None)
+        slot = record_schema(type(self)).name
         return (getattr(self, slot.name) or slot.about.default or None) if slot else None
 
     @classmethod
@@ -339,6 +339,11 @@ class RecordSchema:
     tables: list[FieldSpec] = field(default_factory=list)
     children: dict[str, FieldSpec] = field(default_factory=dict)
     slots: list[FieldSpec] = field(default_factory=list)
+
+    @cached_property
+    def name(self) -> FieldSpec | None:
+        """First field that is a name: that of the part itself, or of what its values belong to."""
+        return next((slot for slot in self.slots if slot.kind is Kind.NAME), None)
 
     @cached_property
     def row_names(self) -> list[str]:

@@ -106,17 +106,12 @@ def line_end_before(source: Source, offset: int) -> str:
     return "\r\n" if source.text[end - 2 : end] == "\r\n" else source.text[end - 1]
 
 
-def edited_text(source: Source, edits: Iterable[TextEdit]) -> str:
-    """Return the text of a source with edits applied, in its own line ends; raises as `apply_edits`."""
-    return apply_edits(source.text, with_line_ends(source, edits))
-
-
 def edited_bytes(source: Source, edits: Iterable[TextEdit]) -> bytes:
-    """Return `edited_text` in the encoding of the file, with its byte-order mark, if any; unchanged bytes stay.
+    """Return the bytes of a source with edits applied, in its own line ends and encoding; unchanged bytes stay.
 
     Raises as `apply_edits`, and UnicodeEncodeError if an edit has a character that the encoding lacks.
     """
-    return source.to_bytes(edited_text(source, edits))
+    return source.to_bytes(apply_edits(source.text, with_line_ends(source, edits)))
 
 
 # ------------------------------------------------------------------------------------------------ columns that are kept
@@ -172,10 +167,9 @@ def _wide_blanks_before(source: Source, row: _Row, span: Span) -> Span | None:
 
 def _row(source: Source, number: int) -> _Row | None:
     """Return a line as a row of fields; None for a setting, a comment, a keyword."""
-    start = source.line_starts[number - 1]
-    line = source.line(number)
-    span = Span(start, start + len(line))
+    span = source.line_span(number)
+    line = source.text[slice(*span)]
     if not line.strip() or line[0] in "Cc*$" or line.lstrip()[0] in "*$" or first_key(source.unified, span):
         return None
     fields, problems = split(source.unified, span)
-    return None if problems else _Row(start, fields)
+    return None if problems else _Row(span.start, fields)

@@ -126,10 +126,10 @@ def read_rows_slow(text: str, span: Span, columns: int) -> RawRows:
     lengths: list[int] = []
     words: dict[tuple[int, int], str] = {}
     for index, line in enumerate(line_spans(text, span)):
-        row_words, length = _row_words(text[line.start : line.end], columns)
+        found, length = row_words(text[line.start : line.end], columns)
         lengths.append(length)
         row = [math.nan] * columns
-        for column, word in enumerate(row_words):
+        for column, word in enumerate(found):
             value = read_number(word)
             if value is None:
                 words[index, column] = word
@@ -184,7 +184,7 @@ def row_fields(text: str, line: Span, columns: int) -> list[Field]:
     body = text[line.start : line.end]
     fields: list[Field] = []
     at = 0
-    for word in _row_words(body, columns)[0]:
+    for word in row_words(body, columns)[0]:
         at = body.index(word, at)
         fields.append(Field(word, line.start + at))
         comma = body.find(",", at + len(word))
@@ -192,7 +192,7 @@ def row_fields(text: str, line: Span, columns: int) -> list[Field]:
     return fields
 
 
-def _row_words(body: str, columns: int) -> tuple[list[str], int]:
+def row_words(body: str, columns: int) -> tuple[list[str], int]:
     """Return the first `columns` fields of a row, and its number of fields; spaces separate if all fields are numbers.
 
     Empty fields behind the last column, which trailing commas leave, do not count.

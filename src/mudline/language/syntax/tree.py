@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import re
 import sys
+from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import NamedTuple
 
 from mudline.basics.short_repr import short_repr
-from mudline.language.diagnostics import Span
+from mudline.language.diagnostics import Span, Where
 from mudline.language.syntax.grammars import parser
 from mudline.language.syntax.source import CONTROLS, Source
 
@@ -72,8 +73,42 @@ class RawSection:
 
     __repr__ = short_repr
 
+    @property
+    def above(self) -> Span:
+        """Span of its lines above the first block."""
+        last = self.leaves[-1] if self.leaves else self.head
+        return Span(self.head.span.start if self.head else 0, last.span.end if last else 0)
 
-@dataclass(frozen=True, slots=True)
+    @property
+    def span(self) -> Span:
+        """Span from its `$SECTION` line to the end of its last line; it ends where the next section begins."""
+        return Span(self.above.start, self.blocks[-1].span.end if self.blocks else self.above.end)
+
+
+class Spot(NamedTuple):
+    """Block, or lines of a section above its first block (`block` None), and its place among the values of the deck."""
+
+    where: Where
+    section: RawSection
+    block: RawBlock | None = None
+
+    @property
+    def part(self) -> RawBlock | RawSection:
+        """The block, or else the section, with its `*` or `$` line and the lines below it."""
+        return self.block or self.section
+
+    @property
+    def keyword(self) -> str:
+        """Name of the block, or ""."""
+        return self.block.name if self.block else ""
+
+    @property
+    def span(self) -> Span:
+        """Span of the lines; it ends where the next one begins."""
+        return self.block.span if self.block else self.section.above
+
+
+@dataclass(frozen=True)
 class SyntaxTree:
     """Tree of a whole file: the lines before the first section, then the sections."""
 
@@ -85,13 +120,23 @@ class SyntaxTree:
 
     def leaves(self) -> Iterator[Leaf]:
         """Yield every leaf, in the order of the text."""
-        for section in (self.preamble, *self.sections):
-            if section.head:
-                yield section.head
-            yield from section.leaves
-            for block in section.blocks:
-                yield block.head
-                yield from block.leaves
+        for spot in self.spots:
+            if spot.part.head:
+                yield spot.part.head
+            yield from spot.part.leaves
+
+    @cached_property
+    def spots(self) -> list[Spot]:
+        """Sections and blocks in the order of the text; the preamble, with section -1, comes first."""
+        return [
+            Spot(Where(index, number), section, block)
+            for index, section in enumerate((self.preamble, *self.sections), -1)
+            for number, block in enumerate((None, *section.blocks), -1)
+        ]
+
+    def at(self, offset: int) -> Spot:
+        """Return the section or block around an offset."""
+        return self.spots[max(bisect_right(self.spots, offset, key=lambda spot: spot.span.start) - 1, 0)]
 
 
 @cache

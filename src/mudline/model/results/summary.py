@@ -161,8 +161,7 @@ def bed_summary(scene: Scene) -> list[dict[str, Any]]:
         pairs = {name: [finite(value) for value in getattr(values, name)] for name in _PAIRS}
         single = {name: finite(getattr(values, name)) for name in _SINGLE}
         if any(v is not None for v in (*single.values(), *(v for pair in pairs.values() for v in pair))):
-            entry: Any = scene.deck.sections[where.section].blocks[where.block]
-            name = (entry.sets[where.path[1]].set_name or "ALL") if where.path[0] == "sets" else "ALL"
+            name = getattr(scene.deck.at(where), "set_name", None) or "ALL"
             rows.append({"set": name, "elements": int((scene.resistance.of_element == index).sum()), **pairs, **single})
     return rows
 

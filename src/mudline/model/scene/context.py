@@ -312,13 +312,6 @@ class Context:
         usable = all(isinstance(value, int) and abs(value) <= LARGEST_WHOLE for value in values)
         return (values[0], values[1], values[2]) if usable else None
 
-    def as_written(self, where: Where) -> object:
-        """Return a part of the deck before its equations were evaluated."""
-        part: Any = self.written.sections[where.section].blocks[where.block]
-        for step in where.path:
-            part = part[step] if isinstance(step, int) else getattr(part, step)
-        return cast("object", part)
-
     def is_guessed_label(self, where: Where) -> bool:
         """Return True if the label at this place was guessed from a word without braces, which is reported."""
         return self._position(Problem(SYN016, "", where=where)) in self._guessed_labels

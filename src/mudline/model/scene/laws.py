@@ -25,7 +25,7 @@ from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, mark
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties
+    from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties, SeabedSet
     from mudline.language.keywords.model import Record
 
 
@@ -230,13 +230,12 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
     places = [where.inside("properties") for where, _ in context.surfaces]
     position_of = np.full(len(laws.set_laws) + 1, len(surfaces) - 1, dtype=np.intp)
     for index in present(laws.covered):
-        where = laws.set_laws[index].where
-        block = cast("SeabedProperties", context.deck.sections[where.section].blocks[where.block])
-        position = cast("int", where.path[1])
+        place = laws.set_laws[index].where
+        place = place._replace(path=place.path[:2])
         position_of[index] = len(values)
-        entry = block.sets[position]
+        entry: SeabedSet = context.deck.at(place)
         values.append(_resistance(entry, entry.friction, entry.suction))
-        places.append(Where(where.section, where.block, ("sets", position)))
+        places.append(place)
     return SeabedResistance(values, places, looked_up(position_of, laws.covered))
 
 

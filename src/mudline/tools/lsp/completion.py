@@ -17,10 +17,10 @@ from mudline.language.keywords.fields import Setting
 from mudline.language.keywords.model import Block, FieldSpec, record_schema
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.values import Names
-from mudline.language.syntax.tree import LeafKind
+from mudline.language.syntax.tree import LeafKind, Spot
 from mudline.tools.lsp.decks import Analysis, value_text
 from mudline.tools.lsp.help import field_help, keyword_help, section_help
-from mudline.tools.lsp.places import Spot, slot_of_key, spot
+from mudline.tools.lsp.places import slot_of_key
 
 TRIGGERS = ["$", "*", "=", "[", ",", "{", "%"]
 _HEAD = re.compile(r"[ \t]*([$*])[^\r\n]*$")
@@ -52,17 +52,17 @@ def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[type
     """Return the completions at an offset; `snippets` says that the editor accepts placeholders."""
     document = analysis.document
     line = document.source.line_span(document.line_at(offset) + 1)
-    here = spot(analysis.origin.tree, max(line.start - 1, 0))
+    here = analysis.origin.tree.at(max(line.start - 1, 0))
     cursor = _Cursor(analysis, offset, document.text[line.start : offset], here, snippets)
     if head := _HEAD.match(cursor.before):
         start = line.start + head.start(1)
         return list(_sections(cursor, start) if head[1] == "$" else _keywords(cursor, start))
-    leaves = here.raw.leaves if here.raw else here.raw_section.leaves if here.raw_section else []
-    if any(leaf.kind is LeafKind.COMMENT and leaf.span.start < offset < leaf.span.end for leaf in leaves):
+    comments = (leaf.span for leaf in here.part.leaves if leaf.kind is LeafKind.COMMENT)
+    if any(span.start < offset < span.end for span in comments):
         return []
     if match := _IN_EQUATION.search(cursor.before):
         return list(_in_equation(cursor, line.start + (match.start(1) if match[1] else match.end())))
-    declared = here.declared
+    declared = catalogue.block_class(here.section.name, here.keyword)
     items = list(_in_block(cursor, declared, line.start)) if declared else []
     if not cursor.before.strip():
         items += _keywords(cursor, offset)
@@ -92,7 +92,7 @@ def _sections(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
 
 def _keywords(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
     """Yield the keywords of the section first, then those allowed in any; with the lines of each, as an example."""
-    section = cursor.spot.raw_section.name if cursor.spot.raw_section else ""
+    section = cursor.spot.section.name
     for name in catalogue.keywords():
         belongs = catalogue.sections_of(name) or ()
         if belongs and section not in belongs:

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import count, takewhile
+from itertools import count
 from pathlib import Path
 from typing import Self, cast
 
@@ -23,6 +23,7 @@ from pygls.uris import from_fs_path, to_fs_path
 from mudline.basics.files import Unsaved, recording_looks, with_unsaved
 from mudline.basics.limits import LARGEST_AT_ONCE, LARGEST_OPEN
 from mudline.basics.outside import refusing_outside
+from mudline.basics.spelling import common_start
 from mudline.checks.configuration import ConfigurationError
 from mudline.checks.context import LintContext, read_deck
 from mudline.checks.engine import LintSettings, lint_context
@@ -145,18 +146,13 @@ class OpenDocument:
     def difference(self, content: bytes) -> list[types.TextEdit]:
         """Return the edit that gives a file's content: one change from the first to the last differing line."""
         old, new = self.source.lines(), Source(self.name, content.decode("utf-8-sig")).lines()
-        first = _same(zip(old, new, strict=False))
-        last = _same(zip(reversed(old[first:]), reversed(new[first:]), strict=False))
+        first = common_start(old, new)
+        last = common_start(old[first:][::-1], new[first:][::-1])
         start = sum(map(len, old[:first]))
         replaced, text = "".join(old[first : len(old) - last]), "".join(new[first : len(new) - last])
         if replaced == text:
             return []
         return [types.TextEdit(self.range(Span(start, start + len(replaced))), text)]
-
-
-def _same(pairs: Iterable[tuple[str, str]]) -> int:
-    """Return the number of pairs of equal lines before the first unequal pair."""
-    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
 
 
 # --------------------------------------------------------------------------------------------------------- addresses

@@ -22,6 +22,7 @@ from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.syntax.fields import trimmed
+from mudline.model.results.curve_rows import diameters_on
 from mudline.model.results.summary import followers
 from mudline.model.scene.curves import ENDS, SceneCurve
 from mudline.model.scene.deck_values import find_file
@@ -30,17 +31,16 @@ from mudline.model.scene.numbering import Floats
 from mudline.model.scene.references import CURVES
 from mudline.model.scene.restart import find_deck
 from mudline.tools.lsp.decks import Analysis, value_text
-from mudline.tools.lsp.places import Occurrence, Site, at, equation_spans, site, spot
+from mudline.tools.lsp.places import Occurrence, Site, at, equation_spans, site
 
 
 def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     """Return the help on an offset, in Markdown; None if there is none."""
     origin = analysis.origin
-    here = spot(origin.tree, offset)
-    leaf = here.raw.head if here.raw else here.raw_section.head if here.raw_section else None
+    _, section, block = spot = origin.tree.at(offset)
+    leaf = spot.part.head
     if leaf is not None and leaf.span.start <= offset < leaf.span.end:
-        section = here.raw_section.name if here.raw_section else ""
-        head = section_help(section) if here.raw is None else keyword_help(here.raw.name, section)
+        head = keyword_help(block.name, section.name) if block else section_help(section.name)
         return _hover(analysis, head, trimmed(origin.source.unified, *leaf.span))
     named = at(analysis.names, offset)
     if named is not None and named.thing.kind is Names.PARAMETER:
@@ -212,27 +212,25 @@ def segment_help(analysis: Analysis, value_site: Site) -> str:
     if entry is None or entry.curve is None or not at.size:
         return ""
     ratio = float(entry.points[int(at[0]), 0])
-    ratios, forces = entry.curve.ratios, entry.curve.forces
+    ratios, slopes = entry.curve.ratios, entry.curve.slopes
     number = int(np.searchsorted(ratios, ratio))
     lines = [f"point {number + 1} of {len(ratios)} of {_title(entry)}, by ratio"]
-    sizes = scene.diameter[followers(scene, index)]
-    for first, words in ((number - 1, "up to here"), (number, "from here")):
-        if 0 <= first < len(ratios) - 1:
-            slope = float((forces[first + 1] - forces[first]) / (ratios[first + 1] - ratios[first]))
-            lines.append(f"{words}: {_slope_text(scene, slope, sizes)}")
+    sizes = diameters_on(scene, index)
+    for segment, words in ((number - 1, "up to here"), (number, "from here")):
+        if 0 <= segment < len(slopes):
+            lines.append(f"{words}: {_slope_text(scene, float(slopes[segment]), sizes)}")
     return "\n\n".join(lines)
 
 
-def _slope_text(scene: Scene, slope: float, sizes: Floats) -> str:
+def _slope_text(scene: Scene, slope: float, sizes: list[float]) -> str:
     """Return a slope, and the stiffness for the diameters of the elements that follow the curve."""
     names = unit_names(scene.units)
-    known = np.unique(sizes[~np.isnan(sizes)])
     text = _with_unit("slope", slope, names.line_force)
-    if not len(known):
+    if not sizes:
         return text
-    low, high = slope / float(known[-1]), slope / float(known[0])
+    low, high = slope / sizes[-1], slope / sizes[0]
     stiffness = f"{low:g}" if low == high else f"{low:g} to {high:g}"
-    return f"{text}, stiffness {stiffness} {names.stiffness}".rstrip() + f" ({_diameters(scene, sizes)})"
+    return f"{text}, stiffness {stiffness} {names.stiffness}".rstrip() + f" ({_diameters(scene, np.array(sizes))})"
 
 
 def _title(entry: SceneCurve) -> str:

@@ -183,7 +183,7 @@ def _is_parameter(name: str) -> bool:
         read = parse(name)
     except ExpressionError:
         return False
-    return read.names == (name,) and name.casefold() not in CONSTANTS
+    return [use.name for use in read.uses] == [name] and name.casefold() not in CONSTANTS
 
 
 def _location(document: OpenDocument, span: Span) -> types.Location:

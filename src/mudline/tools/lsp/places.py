@@ -7,18 +7,17 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from typing import NamedTuple, cast
 
-from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import bare, folded, list_items, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
 from mudline.language.expression.evaluation import CONSTANTS
 from mudline.language.expression.parsing import ExpressionError, parse
-from mudline.language.keywords import catalogue
-from mudline.language.keywords.model import Block, FieldSpec, Part
-from mudline.language.keywords.reader import schemas_of
+from mudline.language.keywords.model import Block, FieldSpec, Part, Path
+from mudline.language.keywords.reader import ReadBlock, schemas_of
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.fields import canonical_key, first_key, read_line
-from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection, SyntaxTree
+from mudline.language.syntax.tree import LeafKind
 
 KINDS = {
     Names.SET: Names.SET,
@@ -62,7 +61,7 @@ def occurrences(deck: Deck) -> list[Occurrence]:
         return []
     listed = [*_given(deck, origin), *_in_equations(origin)]
     known = {place.thing for place in listed if place.defines}
-    listed += [place for place in (*_placeholders(origin), *_passed_through(deck, origin)) if place.thing in known]
+    listed += [place for place in (*_placeholders(origin), *_passed_through(origin)) if place.thing in known]
     return sorted(listed, key=lambda place: place.span)
 
 
@@ -81,7 +80,7 @@ def _given(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
         if kind not in KINDS or read is None:
             continue
         if kind is Names.PARAMETER and role == "defines":
-            yield from _parameters(origin, where, cast("Block", deck.sections[where.section].blocks[where.block]))
+            yield from _parameters(read, where.path)
         elif read.places.has(where.path):
             span = _inner(origin, read.places.find(where.path))
             yield Occurrence(thing(KINDS[kind], name), name, span, defines=role == "defines")
@@ -95,30 +94,28 @@ def _inner(origin: TextOrigin, span: Span) -> Span:
     return Span(start, start + len(name))
 
 
-def _parameters(origin: TextOrigin, where: Where, block: Block) -> Iterator[Occurrence]:
+def _parameters(read: ReadBlock, path: Path) -> Iterator[Occurrence]:
     """Yield the parameters that a line defines: one, or those of a list."""
-    parameter = block.parameters[int(where.path[1])]  # type: ignore[attr-defined]
+    parameter = read.model.at(path[:-1])[1]
     name, value = cast("str", parameter.name), cast("object", parameter.value)
-    places = origin.read[where.section, where.block].places
     if isinstance(value, str) and value.startswith("/"):
-        span = places.find((*where.path[:-1], "value"))
+        span = read.places.find((*path[:-1], "value"))
         for item in list_items(name, value)[0]:
             place = Span(span.start + item.start, span.start + item.start + len(item.value))
             yield Occurrence(thing(Names.PARAMETER, item.name), item.name, place, defines=True, composed=True)
         return
-    yield Occurrence(thing(Names.PARAMETER, name), name, places.find(where.path), defines=True)
+    yield Occurrence(thing(Names.PARAMETER, name), name, read.places.find(path), defines=True)
 
 
-def _passed_through(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
+def _passed_through(origin: TextOrigin) -> Iterator[Occurrence]:
     """Yield the sets that SET= names in blocks whose lines are not read."""
     text = origin.source.unified
-    for section, raw_section in zip(deck.sections, origin.tree.sections, strict=False):
-        for block, raw in zip(section.blocks, raw_section.blocks, strict=False):
-            for leaf in raw.leaves if type(block) is Opaque else ():
-                if leaf.kind is LeafKind.SETTING and first_key(text, leaf.span) == _SET:
-                    value = read_line(text, leaf.span).groups[0].fields[0]
-                    span = _inner(origin, value.span)
-                    yield Occurrence(thing(Names.SET, value.text), value.text, span, defines=False)
+    for where, _, block in origin.tree.spots:
+        for leaf in block.leaves if block and where[:2] not in origin.read else ():
+            if leaf.kind is LeafKind.SETTING and first_key(text, leaf.span) == _SET:
+                value = read_line(text, leaf.span).groups[0].fields[0]
+                span = _inner(origin, value.span)
+                yield Occurrence(thing(Names.SET, value.text), value.text, span, defines=False)
 
 
 # -------------------------------------------------------------------------------------------------------- equations
@@ -164,38 +161,6 @@ def _placeholders(origin: TextOrigin) -> Iterator[Occurrence]:
 # ------------------------------------------------------------------------------------------------- place of an offset
 
 
-class Spot(NamedTuple):
-    """Section and block in whose lines an offset lies, with their numbers; -1 and None outside any section or block."""
-
-    section: int = -1
-    block: int = -1
-    raw_section: RawSection | None = None
-    raw: RawBlock | None = None
-
-    @property
-    def where(self) -> Where:
-        """The place among the values."""
-        return Where(self.section, self.block)
-
-    @property
-    def declared(self) -> type[Block] | None:
-        """The declaration of the block's keyword in this section."""
-        if self.raw is None or self.raw_section is None:
-            return None
-        return catalogue.block_class(self.raw_section.name, self.raw.name)
-
-
-def spot(tree: SyntaxTree, offset: int) -> Spot:
-    """Return the section and block at an offset; a block begins at its first character, and ends before the next."""
-    heads = [section.head.span.start if section.head else 0 for section in tree.sections]
-    at = bisect_right(heads, offset) - 1
-    if at < 0:
-        return Spot()
-    section = tree.sections[at]
-    number = bisect_right([block.head.span.start for block in section.blocks], offset) - 1
-    return Spot(at, number, section, section.blocks[number] if number >= 0 else None)
-
-
 class Site(NamedTuple):
     """A value of a deck: its place, its field, and the value as read (None if it could not be read)."""
 
@@ -208,36 +173,28 @@ class Site(NamedTuple):
 def site(deck: Deck, offset: int) -> Site | None:
     """Return the value at an offset of a deck in keyword text, also if its KEY= is there."""
     origin = cast("TextOrigin", deck.origin)
-    here = spot(origin.tree, offset)
-    read = origin.read.get((here.section, here.block))
-    if read is None or here.raw is None:
+    where, _, raw = origin.tree.at(offset)
+    read = origin.read.get(where[:2])
+    if read is None or raw is None:
         return None
-    leaves = [here.raw.head, *here.raw.leaves]
-    leaf = leaves[bisect_right([leaf.span.start for leaf in leaves], offset) - 1]  # the line, or run of lines
+    leaves = [raw.head, *raw.leaves]
+    leaf = leaves[bisect_right(leaves, offset, key=lambda leaf: leaf.span.start) - 1]  # the line, or run of lines
     if leaf.kind is LeafKind.COMMENT:
-        return None
-    block = deck.sections[here.section].blocks[here.block]
-    if type(block) is Opaque:
         return None
     place = read.places.at(offset)
     if place is not None:
         path, span = place
-        slot, value = cast("Block", block).at(path)
+        slot, value = read.model.at(path)
         if slot is not None and not isinstance(value, Part | list):
-            return Site(here.where.inside(*path), span, slot, value)
-    return _of_key(origin, here, leaf, offset)
-
-
-def _of_key(origin: TextOrigin, here: Spot, leaf: Leaf, offset: int) -> Site | None:
-    """Return the setting whose KEY= is at an offset."""
-    declared = here.declared
-    if declared is None or leaf.kind not in (LeafKind.SETTING, LeafKind.UNDECIDED):
+            return Site(where.inside(*path), span, slot, value)
+    if leaf.kind not in (LeafKind.SETTING, LeafKind.UNDECIDED):
         return None
+    declared = type(read.model)
     for group in read_line(origin.source.unified, leaf.span, slashes=declared.slashes).groups:
         end = group.fields[0].span.start if group.fields else group.span.end
         if group.key and group.span.start <= offset <= end:
             slot = slot_of_key(declared, group.key)
-            return Site(here.where, Span(group.span.start, end), slot, None) if slot else None
+            return Site(where, Span(group.span.start, end), slot, None) if slot else None
     return None
 
 

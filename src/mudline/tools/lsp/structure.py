@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import groupby, islice
-from typing import cast
+from itertools import groupby
 
 from lsprotocol import types
 from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, String, _TokenType
@@ -12,15 +11,13 @@ from pygments.token import Comment, Generic, Keyword, Name, Number, Operator, St
 from mudline.basics.limits import MOST_OUTLINED
 from mudline.editing.formatting.document import FormatError, formatted
 from mudline.language.deck.forms import form_of
-from mudline.language.deck.model import Opaque
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import DeckError, Span
+from mudline.language.diagnostics import DeckError, Span, Where
 from mudline.language.highlighting.lexer import DeckLexer
-from mudline.language.keywords.model import Block, Part, record_schema
+from mudline.language.keywords.model import record_schema
 from mudline.language.keywords.reader import ReadBlock
-from mudline.language.keywords.values import Kind, Names
 from mudline.language.syntax.fields import trimmed
-from mudline.language.syntax.tree import LeafKind, RawBlock, RawSection
+from mudline.language.syntax.tree import LeafKind, RawBlock
 from mudline.tools.lsp.decks import Analysis, OpenDocument, failed, units_of
 
 # ----------------------------------------------------------------------------------------------------------- colours
@@ -71,26 +68,11 @@ def tokens(document: OpenDocument) -> types.SemanticTokens:
 
 def outline(analysis: Analysis) -> Iterator[types.DocumentSymbol]:
     """Yield sections, their blocks, and the named records in these: sets, curves, parameters."""
-    origin = analysis.origin
-    for index, section, head, end in _sections(origin):
-        lines = enumerate(_extents(section, end))
-        blocks = [_block(analysis, origin, (index, number), raw, stop) for number, (raw, stop) in lines]
-        yield _symbol(analysis, f"${section.name}", types.SymbolKind.Module, head, end, blocks)
-
-
-def _sections(origin: TextOrigin) -> Iterator[tuple[int, RawSection, Span, int]]:
-    """Yield number, section, $ line and end of each section; it ends before the next, or with the text."""
-    sections = origin.tree.sections
-    ends = [*(section.head.span.start for section in sections[1:] if section.head), len(origin.source.unified)]
-    for index, (section, end) in enumerate(zip(sections, ends, strict=False)):
-        if section.head is not None:
-            yield index, section, section.head.span, end
-
-
-def _extents(section: RawSection, stop: int) -> Iterator[tuple[RawBlock, int]]:
-    """Return every block of a section that ends at `stop`, with the end of the block."""
-    ends = [*(block.head.span.start for block in section.blocks[1:]), stop]
-    return zip(section.blocks, ends, strict=False)
+    for index, section in enumerate(analysis.origin.tree.sections):
+        if section.head:
+            blocks = [_block(analysis, Where(index, number), raw) for number, raw in enumerate(section.blocks)]
+            head, end = section.head.span, section.span.end
+            yield _symbol(analysis, f"${section.name}", types.SymbolKind.Module, head, end, blocks)
 
 
 def _symbol(
@@ -108,23 +90,19 @@ def _symbol(
     return types.DocumentSymbol(name.strip() or "?", kind, place(whole), place(line), children=children)
 
 
-def _block(
-    analysis: Analysis, origin: TextOrigin, at: tuple[int, int], raw: RawBlock, stop: int
-) -> types.DocumentSymbol:
-    children: list[types.DocumentSymbol] = []
-    read = origin.read.get(at)
-    if read is not None and not analysis.document.is_long:
-        block = analysis.deck.sections[at[0]].blocks[at[1]]
-        children = [] if type(block) is Opaque else list(_records(analysis, cast("Block", block), read, stop))
-    return _symbol(analysis, f"*{raw.name}", types.SymbolKind.Class, raw.head.span, stop, children)
+def _block(analysis: Analysis, where: Where, raw: RawBlock) -> types.DocumentSymbol:
+    read = None if analysis.document.is_long else analysis.origin.read.get(where[:2])
+    records = list(_records(analysis, read, raw.span.end)) if read else []
+    return _symbol(analysis, f"*{raw.name}", types.SymbolKind.Class, raw.head.span, raw.span.end, records)
 
 
-def _records(analysis: Analysis, block: Block, read: ReadBlock, stop: int) -> Iterator[types.DocumentSymbol]:
+def _records(analysis: Analysis, read: ReadBlock, stop: int) -> Iterator[types.DocumentSymbol]:
     """Yield the named records of a block."""
+    block = read.model
     for slot in record_schema(type(block)).slots:
         records = getattr(block, slot.name, None) if slot.record else None
-        named = [(index, _name(record)) for index, record in enumerate(records or ())]
-        shown = [(index, name) for index, name in islice(named, MOST_OUTLINED) if name]
+        named = [(index, record.known_as()) for index, record in enumerate((records or ())[:MOST_OUTLINED])]
+        shown = [(index, name) for index, name in named if isinstance(name, str)]
         if not shown:
             continue
         spans = [read.places.find((slot.json, index)) for index, _ in shown]
@@ -134,16 +112,6 @@ def _records(analysis: Analysis, block: Block, read: ReadBlock, stop: int) -> It
             yield _symbol(analysis, name, kind, span, end)
 
 
-def _name(record: Part) -> str:
-    """Return the name that a record gives or is found by."""
-    for slot in record_schema(type(record)).slots:
-        named = slot.about.defines is not None or slot.about.names is Names.SET or slot.key == "NAME"
-        value = getattr(record, slot.name, None) if named and slot.kind is Kind.NAME and not slot.many else None
-        if isinstance(value, str) and value:
-            return value
-    return ""
-
-
 # ----------------------------------------------------------------------------------------------------------- folding
 
 
@@ -151,9 +119,9 @@ def folding(analysis: Analysis) -> Iterator[types.FoldingRange]:
     """Yield the folding ranges: sections, blocks, and comments of more than one line."""
     origin = analysis.origin
     spans = [(span, types.FoldingRangeKind.Comment) for span in _comments(origin)]
-    for _, section, head, stop in _sections(origin):
-        blocks = (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
-        spans += [(span, types.FoldingRangeKind.Region) for span in (Span(head.start, stop), *blocks)]
+    for section in origin.tree.sections:
+        regions = (section.span, *(block.span for block in section.blocks))
+        spans += [(span, types.FoldingRangeKind.Region) for span in regions]
     document = analysis.document
     for span, kind in sorted(spans, key=lambda each: each[1] is types.FoldingRangeKind.Comment):
         body = trimmed(document.text, *span)

@@ -6,7 +6,7 @@ gives the reason.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from functools import reduce
 from hashlib import sha256
@@ -26,7 +26,6 @@ from mudline.checks.suppression import suppressions
 from mudline.checks.verdict import Verdict, judge, refused
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
-from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.language.syntax.source import Source
 from mudline.model.contact.input import LawKind
@@ -274,29 +273,22 @@ def _reason(error: DeckError) -> str:
 def _findings(given: DeckFile, settings: LintSettings, context: LintContext | None) -> dict[str, Any]:
     """Return the findings of `mudline lint`, and those hidden by comments, each with its section of the deck."""
     findings = lint_one(given.name, given.data, settings, given.folder).found
-    sections = _section_lines(context)
-    reported = [_finding(finding, sections) for finding in findings]
-    hidden = [] if context is None else _hidden(context, settings, sections)
+    reported = [_finding(finding, context) for finding in findings]
+    hidden = [] if context is None else _hidden(context, settings)
     return {"reported": reported, "hidden": hidden}
 
 
-def _section_lines(context: LintContext | None) -> list[tuple[int, str]]:
-    """Return the first line of each section of a text, with its name."""
-    origin = None if context is None else context.deck.origin
-    if context is None or not isinstance(origin, TextOrigin):
-        return []
-    places = (origin.source.position(section.head.span.start)[0] for section in origin.tree.sections if section.head)
-    return list(zip(places, (f"${section.name}" for section in context.deck.own_sections), strict=False))
-
-
-def _finding(finding: Diagnostic, sections: Sequence[tuple[int, str]]) -> dict[str, Any]:
-    section = next((name for line, name in reversed(sections) if line <= finding.line), "")
+def _finding(finding: Diagnostic, context: LintContext | None) -> dict[str, Any]:
+    section = ""
+    if context is not None and (text := context.text):
+        spot = text.tree.at(text.source.line_span(finding.line).start)
+        section = f"${spot.section.name}" if spot.section.head else ""
     row = as_object(finding) | {"section": section}
     del row["url"], row["file"]
     return row
 
 
-def _hidden(context: LintContext, settings: LintSettings, sections: list[tuple[int, str]]) -> list[dict[str, Any]]:
+def _hidden(context: LintContext, settings: LintSettings) -> list[dict[str, Any]]:
     comments = suppressions(context)
     if comments is None:
         return []
@@ -304,7 +296,7 @@ def _hidden(context: LintContext, settings: LintSettings, sections: list[tuple[i
     for problem in comments.split(joined_problems(context, settings.rules, suppress=False), ())[1]:
         comment = comments.hiding(problem)
         (finding,) = context.deck.diagnose([problem])
-        rows.append(_finding(finding, sections) | {"reason": "" if comment is None else comment.reason})
+        rows.append(_finding(finding, context) | {"reason": "" if comment is None else comment.reason})
     return rows
 
 

@@ -115,8 +115,7 @@ def laws_of(scene: Scene) -> Iterator[dict[str, Any]]:
         yield law | {"values": values, "words": words}
     for index, (resistance, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
         values = {key.replace("_", " "): read for key, value in resistance._asdict().items() if (read := _given(value))}
-        entry: Any = scene.deck.sections[where.section].blocks[where.block]
-        part = entry.sets[where.path[1]] if where.path[0] == "sets" else entry.properties
+        part = scene.deck.at(where)
         if values:
             words = "; ".join(values_in_words(part, scene.units, ("set", "stiffness")))
             name: str | None = getattr(part, "set_name", None)

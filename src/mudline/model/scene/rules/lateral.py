@@ -157,7 +157,7 @@ def _unread(scene: ResolvedDeck) -> bool:
     if friction is not None and None in friction.sets and not scene.context.possible_definition("ELEMENT SETS"):
         return True
     places = [*scene.resistance.places, *(friction.places if friction else ())]
-    return any(is_partly_unknown(scene.context.as_written(place)) for place in places)
+    return any(is_partly_unknown(scene.context.written.at(place)) for place in places)
 
 
 def _self_locking(scene: ResolvedDeck, trenches: Extension, coefficient: Floats) -> Mask:
