@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 
 import numpy as np
 
@@ -12,12 +13,13 @@ from mudline.checks.rules.curve_points import is_upside_down
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
+from mudline.model.contact.seabed import heading
 from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.given_positions import FLAT
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Mask
-from mudline.model.scene.seabed import SeabedKind, SeabedShape
+from mudline.model.scene.seabed import SeabedKind, SeabedShape, made_seabed
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
@@ -68,87 +70,34 @@ def _lowering(scene: Scene) -> Floats | None:
 
 
 def _depths(scene: Scene) -> Floats:
-    floor = scene.seabed
-    x, y, z = scene.coordinates.T
-    if not _is_bed(scene):
-        return np.full(len(x), np.nan)
+    floor, places = scene.seabed, scene.coordinates
+    unknown = np.full(len(places), np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
-        if floor.kind is SeabedKind.PLANES:
-            return _below_planes(floor, x, y, z)
-        if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
-            slope = np.radians(floor.slope)
-            depth: Floats = _along(floor.direction, y, z) * np.sin(slope) - x * np.cos(slope)
-            return depth
-        if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
-            return np.full(len(x), np.nan)
-        if floor.kind is SeabedKind.SURFACE:
-            return np.asarray(floor.points[:, 0].min() - x)
-        return _below_profile(floor, x, _along(floor.direction, y, z))
+        if floor.kind in (SeabedKind.PROFILE, SeabedKind.SURFACE):
+            if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
+                return unknown
+            if floor.kind is SeabedKind.SURFACE:
+                return np.asarray(floor.points[:, 0].min() - places[:, 0])
+            return _below_profile(floor, places)
+        if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
+            return unknown  # two seabeds, which is reported
+        with suppress(ValueError):  # illegal numbers are reported too
+            made_seabed(floor).gaps(places, unknown)
+    return 0.0 - unknown
 
 
-def _is_bed(scene: Scene) -> bool:
-    """Return True if slopes are below 90 degrees and the deck describes one seabed; other rules report the contrary."""
-    floor = scene.seabed
-    if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
-        return False
-    return all(abs(slope) < 90.0 for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
-
-
-def steepness(scene: Scene) -> Floats:
-    """Return slopes (n,) of the seabed under the nodes as a tangent, without sign, of a profile or a uniform slope.
-
-    NaN where they are not known.
-    """
-    floor = scene.seabed
-    _, y, z = scene.coordinates.T
-    if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
-        return np.full(len(y), abs(np.tan(np.radians(floor.slope))))
-    if floor.kind is not SeabedKind.PROFILE or floor.missing or floor.points.size == 0:
-        return np.full(len(y), np.nan)
-    points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
-    slopes = np.concatenate([[0.0], _slopes(points), [0.0]])
-    place = _along(floor.direction, y, z)
-    sides = (np.searchsorted(points[:, 0], place, side) for side in ("left", "right"))
-    steepest: Floats = np.maximum(*(slopes[side] for side in sides))
-    return steepest
-
-
-def _along(direction: float, y: Floats, z: Floats) -> Floats:
-    """Return the horizontal coordinate along which a seabed rises or falls that is constant across it."""
-    turned = np.radians(direction)
-    along: Floats = y * np.cos(turned) + z * np.sin(turned)
-    return along
-
-
-def _slopes(points: Floats) -> Floats:
-    widths, rises = np.diff(points, axis=0).T
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        slopes: Floats = np.abs(np.where(rises == 0.0, 0.0, rises / widths))
-    return slopes
-
-
-def _below_profile(floor: SeabedShape, x: Floats, along: Floats) -> Floats:
+def _below_profile(floor: SeabedShape, places: Floats) -> Floats:
     """Return lower bounds of the distances below the profile; beyond its ends, where it is level, they are exact."""
     points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
-    steepest = float(_slopes(points).max(initial=0.0))
+    widths, rises = np.diff(points, axis=0).T
+    with np.errstate(divide="ignore"):
+        steepest = float(np.abs(rises[rises != 0.0] / widths[rises != 0.0]).max(initial=0.0))
+    cosine, sine = heading(floor.direction)
+    x, y, z = places.T
+    along = y * cosine + z * sine
     below: Floats = np.interp(along, points[:, 0], points[:, 1]) - x
     below[(along >= points[0, 0]) & (along <= points[-1, 0])] /= np.hypot(1.0, steepest)
     return below
-
-
-def _below_planes(floor: SeabedShape, x: Floats, y: Floats, z: Floats) -> Floats:
-    """Return the depth below the highest plane whose bounds hold the node; of equally high planes the later counts."""
-    highest = np.full(len(x), -np.inf)
-    depth = np.full(len(x), np.nan)
-    for plane in floor.planes:
-        x0, y0, z0 = plane.point
-        slope = np.radians(plane.slope)
-        height = x0 + _along(plane.direction, y - y0, z - z0) * np.tan(slope)
-        y_min, y_max, z_min, z_max = plane.bounds
-        held = (y >= y_min) & (y <= y_max) & (z >= z_min) & (z <= z_max) & (height >= highest)
-        highest[held] = height[held]
-        depth[held] = ((height - x) * np.cos(slope))[held]
-    return depth
 
 
 def first_of(thing: str, first: int, count: int) -> str:
@@ -261,11 +210,14 @@ def _widest(scene: Scene) -> Floats:
 
 
 def _on_slope(context: LintContext) -> Mask:
-    """Return a mask (n,) of the nodes within a diameter of a seabed that is not level."""
+    """Return a mask (n,) of the nodes within a diameter of a profile or a uniform slope that is not level."""
     scene = context.scene
+    normal = np.zeros((len(scene.node_ids), 3))
+    if scene.seabed.kind in (SeabedKind.SLOPING, SeabedKind.PROFILE):
+        with suppress(ValueError):
+            made_seabed(scene.seabed).locate(scene.coordinates, np.empty(len(normal)), normal)
     near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
-    sloping: Mask = (steepness(scene) > 0.0) & (context.once(depths) >= -np.maximum(_widest(scene), near))
-    return sloping
+    return normal[:, 1:].any(axis=1) & (context.once(depths) >= -np.maximum(_widest(scene), near))
 
 
 @rule(CRV014)

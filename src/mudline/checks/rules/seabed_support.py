@@ -349,9 +349,6 @@ def _depths(context: LintContext, elements: Indices) -> Floats:
     mean_depths = np.full(len(elements), np.nan)
     ends = scene.element_nodes[elements]
     known = (ends >= 0).all(axis=1)
-    if scene.seabed.kind is SeabedKind.FLAT:
-        below = 0.0 - scene.coordinates[ends[known], 0]
-    else:
-        below = context.once(depths)[ends[known]]
+    below = context.once(depths)[ends[known]]
     mean_depths[known] = 0.5 * below[:, 0] + 0.5 * below[:, 1]
     return mean_depths
