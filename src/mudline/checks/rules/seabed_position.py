@@ -18,7 +18,7 @@ from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.given_positions import FLAT
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Mask
+from mudline.model.scene.numbering import Floats, Mask, first_of
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, made_seabed
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
@@ -100,11 +100,6 @@ def _below_profile(floor: SeabedShape, places: Floats) -> Floats:
     return below
 
 
-def first_of(thing: str, first: int, count: int) -> str:
-    """Return elements or nodes in words: the number of the first one and their count."""
-    return f"{thing} {first}" if count == 1 else f"{count} {thing}s (first: {first})"
-
-
 @rule(SBD022)
 def deep_node(context: LintContext) -> Iterator[Problem]:
     """Nodes lie more than five diameters below the seabed.
@@ -130,7 +125,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
         limit = DEEPEST * _widest(scene)
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))
     if deep.size:
-        which = f"{first_of('node', scene.node_ids[deep[0]], deep.size)} lie{'s' * (deep.size == 1)}"
+        which = first_of("node", scene.node_ids[deep], "lies", "lie")
         message = f"{which} more than 5 diameters below the seabed: correct the datum of X{_surface(scene)}"
         yield Problem(SBD022, message, where=scene.nodes.where(int(deep[0])))
 
@@ -191,7 +186,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     for where, dof, nodes, _ in held:
         single = nodes[alone[nodes]]
         if single.size:
-            which = first_of("node", scene.node_ids[single[0]], single.size)
+            which = first_of("node", scene.node_ids[single])
             message = (
                 f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid seabed, and "
                 "both are held there: give both, or remove this one"
@@ -211,13 +206,19 @@ def _widest(scene: Scene) -> Floats:
 
 def _on_slope(context: LintContext) -> Mask:
     """Return a mask (n,) of the nodes within a diameter of a profile or a uniform slope that is not level."""
-    scene = context.scene
-    normal = np.zeros((len(scene.node_ids), 3))
-    if scene.seabed.kind in (SeabedKind.SLOPING, SeabedKind.PROFILE):
-        with suppress(ValueError):
-            made_seabed(scene.seabed).locate(scene.coordinates, np.empty(len(normal)), normal)
-    near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
-    return normal[:, 1:].any(axis=1) & (context.once(depths) >= -np.maximum(_widest(scene), near))
+    scene, floor = context.scene, context.scene.seabed
+    places, sloping = scene.coordinates, np.zeros(len(scene.node_ids), dtype=np.bool_)
+    if floor.kind not in (SeabedKind.SLOPING, SeabedKind.PROFILE):
+        return sloping
+    near = 1e-6 * np.abs(places).max(axis=1, initial=1e-3)  # coordinates are rounded when they are written
+    aside = near[:, np.newaxis] * (0.0, *heading(floor.direction))
+    normal = np.empty_like(places)
+    with suppress(ValueError):
+        for beside in (places - aside, places + aside):
+            made_seabed(floor).locate(beside, np.empty(len(places)), normal)
+            sloping |= normal[:, 1:].any(axis=1)
+    sloping &= context.once(depths) >= -np.maximum(_widest(scene), near)
+    return sloping
 
 
 @rule(CRV014)

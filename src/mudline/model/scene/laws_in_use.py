@@ -1,9 +1,9 @@
-"""Use of the laws of a deck: elements in contact without a law, and curves that no element follows, with the reason."""
+"""Use of the laws of a deck: elements that need a law and have none, and curves that no element follows."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from mudline.basics.short_repr import counted, cut
 from mudline.basics.spelling import Effort
@@ -29,9 +29,11 @@ from mudline.model.scene.numbering import Indices, distinct
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.seabed_properties import SeabedProperties
     from mudline.model.scene.curves import SceneCurve
 
 
+_TOUCHING = "is in contact", "are in contact"
 _PIPE_IN_PIPE = ("PIP SECTION", "PIP CONNECTION")
 
 
@@ -64,46 +66,113 @@ def missing_laws(scene: ResolvedDeck, free: Indices, unknown: list[UnknownKeywor
     covered = scene.laws.covered[free]
     for block in present(covered):
         elements = free[covered == block]
-        message = (
-            f"{_touching(scene, elements)} stiffness: this block gives none, and overrides earlier ones as a whole; "
-            "give STIFFNESS= here too"
-        )
-        yield Doubt(SBD006, message, scene.laws.set_laws[block].where, elements, _brief(elements))
+        verbs = "is in contact and gets", "are in contact and get"
+        yield _doubt(block_without_stiffness(scene, block, elements, *verbs), elements)
     bare = free[covered < 0]
     for where, keyword, near in unknown:
         meant = f" (did you mean *{near}?)" if near else ""
-        lack = f"{_touching(scene, bare)} a seabed law" if bare.size else "its lines have no effect"
+        lack = f"{scene.describe(bare, *_TOUCHING)} without a seabed law" if bare.size else "its lines have no effect"
         message = f"keyword *{keyword} is not known{meant}, and {lack}: correct the name"
         yield Doubt(SYN009, message, where, bare, _brief(bare) if bare.size else f"*{cut(keyword, 40)} is not known")
     keywords = scene.deck.keywords()
     inside = some and not keywords.isdisjoint(_PIPE_IN_PIPE)
     if bare.size and not unknown and not inside and not any(map(holds_in_soil, keywords)):
-        yield _bare(scene, bare)
+        yield _doubt(_bare(scene, bare), bare)
 
 
-def _bare(scene: ResolvedDeck, elements: Indices) -> Doubt:
+def _bare(scene: ResolvedDeck, elements: Indices) -> Problem:
     """Return the reason for elements that no block covers, or an elastic surface without a stiffness."""
     surfaces = [where for where, _ in scene.deck.blocks("ELASTIC SURFACE")]
-    if surfaces:
-        message = (
-            f"{_touching(scene, elements)} a curve of *EMBEDMENT, and this surface has no stiffness: give one in the "
-            "first field"
-        )
-        return Doubt(SBD006, message, surfaces[-1], elements, _brief(elements))
-    message = f"{_touching(scene, elements)} a seabed law: give STIFFNESS= to a set of them"
-    where = scene.table.numbered.where(int(elements[0]))
-    return Doubt(SBD006, message, where, elements, _brief(elements))
+    if not surfaces:
+        return without_law(scene, elements, *_TOUCHING)
+    message = (
+        f"{scene.describe(elements, *_TOUCHING)} without a curve of *EMBEDMENT, and this surface has no stiffness: "
+        "give one in the first field"
+    )
+    return Problem(SBD006, message, where=surfaces[-1])
 
 
-def _touching(scene: ResolvedDeck, elements: Indices) -> str:
-    return scene.describe(elements, "is in contact without", "are in contact without")
+def _doubt(problem: Problem, elements: Indices) -> Doubt:
+    return Doubt(problem.code, problem.message, problem.where, elements, _brief(elements))
 
 
 def _brief(elements: Indices) -> str:
     return f"{counted(len(elements), 'element')} in contact without a seabed law"
 
 
+def block_without_stiffness(scene: ResolvedDeck, block: int, elements: Indices, one: str, many: str) -> Problem:
+    """Return the problem of elements to which a block without stiffness applies, given by its index in `set_laws`."""
+    message = (
+        f"{scene.describe(elements, one, many)} no stiffness from this block, which overrides earlier ones as a whole: "
+        "give STIFFNESS= here too"
+    )
+    return Problem(SBD006, message, where=scene.laws.set_laws[block].where)
+
+
+def without_law(scene: ResolvedDeck, elements: Indices, one: str, many: str) -> Problem:
+    """Return the problem of elements to which no block applies; its place is that of the laws if a set has none."""
+    message = f"{scene.describe(elements, one, many)} and no seabed law applies: give STIFFNESS= to a set of them"
+    sets = (set_ for set_ in scene.set_table.named.values() if set_.where and elements[0] in set_.elements)
+    bare = any((scene.law[set_.elements] == LawKind.NONE).all() for set_ in sets)
+    properties = scene.context.blocks("SEABED PROPERTIES")
+    place = properties[0][0] if bare and properties else scene.table.numbered.where(int(elements[0]))
+    return Problem(SBD006, message, where=place)
+
+
 # ------------------------------------------------------------------------------------------------ curves without effect
+
+
+def idle_curves(scene: ResolvedDeck) -> dict[str, list[SceneCurve]]:
+    """Return the curves that no STIFFNESS= names, by folded name; none if something that may use them is not known.
+
+    A curve whose name reads as a number, or nearly as an undefined name, is left out.
+    """
+    if _chosen_elsewhere(scene):
+        return {}
+    curves = [curve for curve in scene.laws.curves if not curve.embedment]
+    unknown = scene.referenced - {folded(curve.name) for curve in curves}
+    idle: dict[str, list[SceneCurve]] = {}
+    for curve in curves:
+        name = folded(curve.name)
+        if not name or name in scene.referenced or read_number(name) is not None:
+            continue
+        if name in idle:
+            idle[name].append(curve)
+        elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which is reported there
+            idle[name] = [curve]
+    return {} if len(idle) == 1 and len(unknown) == 1 else idle
+
+
+def _chosen_elsewhere(scene: ResolvedDeck) -> bool:
+    """Return True if something that is not read, or not fixed, may use curves."""
+    context, laws = scene.context, scene.laws
+    for where, block in context.blocks("SEABED PROPERTIES"):
+        if where.section < len(context.deck.own_sections):
+            written = cast("SeabedProperties", context.as_written(where))
+            pairs = zip(written.sets, block.sets, strict=True)
+            if any(before.stiffness is not after.stiffness for before, after in pairs):
+                return True  # an equation, whose parameters may be varied
+    if any(grant.kind is LawKind.NONE and grant.unknown for grant in laws.set_laws):
+        return True  # a set whose STIFFNESS= is not known
+    if any(gap.block >= 0 and not gap.path for gap in laws.gaps):
+        return True  # a block of which no set is known
+    if "SEABED PROPERTIES" in context.misplaced or (context.restart and not scene.referenced):
+        return True
+    return any(
+        folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read
+        for _, block in context.blocks("VARIATION", "PREPROCESSOR")
+        for variation in block.variations
+        for varied in variation.blocks
+        if varied.action == "ADD"
+    )
+
+
+def named_as_numbers(scene: ResolvedDeck) -> Iterator[Problem]:
+    """Yield the curves whose names read as numbers."""
+    for curve in scene.laws.curves:
+        if not curve.embedment and curve.name and read_number(curve.name) is not None:
+            message = "the name of this curve reads as a number, and STIFFNESS= takes the number: choose another name"
+            yield Problem(SBD017, message, where=curve.title)
 
 
 def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
@@ -121,28 +190,27 @@ def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
         if index in used:
             followed.add(grant.curve)
     unnamed: list[SceneCurve] = []
+    idle = idle_curves(scene)
     for number, curve in enumerate(laws.curves):
-        if number in followed or not curve.name:
+        name = folded(curve.name)
+        if number in followed or not name:
             continue
         if grants := by_curve.get(number):
             if not any(grant.set_.open for grant in grants):
-                yield Problem(
-                    SBD025, f"{_called(curve)} has no effect: {_reason(scene, grants[-1])}", where=curve.title
-                )
+                message = f"{_called(curve)} has no effect: {_reason(scene, grants[-1])}"
+                yield Problem(SBD025, message, where=curve.title)
         elif later := [
             other
             for other in laws.curves[number + 1 :]
-            if (other.embedment, folded(other.name)) == (curve.embedment, folded(curve.name))
+            if (other.embedment, folded(other.name)) == (curve.embedment, name)
         ]:
             line = scene.line_of(later[-1].title)
             message = f"{_called(curve)} has no effect: line {line} has one of the same name; rename it"
             yield Problem(SBD025, message, where=curve.title)
-        elif reader := _read_as_number(scene, curve):
-            message = f"{_called(curve)} has no effect: STIFFNESS= in line {reader} is a number; rename the curve"
-            yield Problem(SBD017, message, where=curve.title)
-        else:
+        elif not curve.embedment and name in idle:
             unnamed.append(curve)
-    if unnamed and not _chosen_by_values(scene):
+    yield from named_as_numbers(scene)
+    if unnamed:
         names = ", ".join(shown(curve.name) for curve in unnamed)
         message = (
             f"{len(unnamed)} curves have no effect, as no STIFFNESS= names them: {names}"
@@ -177,21 +245,3 @@ def _law(scene: ResolvedDeck, winner: SetLaw) -> str:
     if winner.kind is LawKind.CURVE:
         return _called(scene.laws.curves[winner.curve])
     return "a rigid seabed" if winner.kind is LawKind.RIGID else "no stiffness"
-
-
-def _read_as_number(scene: ResolvedDeck, curve: SceneCurve) -> int:
-    """Return the line of a STIFFNESS= whose number is the name of a curve; 0 without one."""
-    value = read_number(curve.name)
-    places = (grant.where for grant in scene.laws.set_laws if grant.family == "new" and grant.stiffness == value)
-    return next((scene.line_of(where) for where in places), 0)
-
-
-def _chosen_by_values(scene: ResolvedDeck) -> bool:
-    """Return True if equations or variations choose the curves: other values may then use the other curves."""
-    if "VARIATION" in scene.deck.keywords("PREPROCESSOR"):
-        return True
-    written, evaluated = (
-        [entry.stiffness for _, block in deck.blocks("SEABED PROPERTIES") for entry in block.sets]
-        for deck in (scene.context.written, scene.deck)
-    )
-    return any(before is not after for before, after in zip(written, evaluated, strict=False))
