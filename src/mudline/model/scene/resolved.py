@@ -260,7 +260,7 @@ class ResolvedDeck:
 
     def line_of(self, where: Where | None) -> int:
         """Return the line of a place in its file; 0 for none."""
-        return 0 if where is None else self.deck.place(Problem(RUN001, "", where=where)).line
+        return 0 if where is None else self.deck.place(where).line
 
     def set_law(self, element: int) -> SetLaw | None:
         """Return the law of the set through which the element of an index has its law."""
