@@ -18,7 +18,7 @@ from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.given_positions import FLAT
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Mask, first_of
+from mudline.model.scene.numbering import Floats, Indices, Mask, first_of
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, made_seabed
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
@@ -46,6 +46,14 @@ def depths(context: LintContext) -> Floats:
     """
     lowering = _lowering(context.scene)
     return _depths(context.scene) if lowering is None else _depths(context.scene) - lowering
+
+
+def mean_depths(context: LintContext, elements: Indices | slice) -> Floats:
+    """Return the mean depth (k,) of the two nodes of some elements, see `depths`; NaN where one is not known."""
+    ends = context.scene.element_nodes[elements]
+    below = np.append(context.once(depths), np.nan)[ends]  # -1, an unknown node, is the last one
+    middle: Floats = 0.5 * below[:, 0] + 0.5 * below[:, 1]
+    return middle
 
 
 def _lowering(scene: Scene) -> Floats | None:
@@ -248,11 +256,10 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     Finds: 14:2
     """
     scene = context.scene
-    if scene.seabed.kind is not SeabedKind.FLAT:
+    if scene.seabed.kind is not SeabedKind.FLAT or not scene.laws.curves:
         return
-    heights = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]  # -1, an unknown node, is the last one
     with np.errstate(over="ignore"):
-        ratios = -(0.5 * heights[:, 0] + 0.5 * heights[:, 1]) / scene.diameter
+        ratios = mean_depths(context, slice(None)) / scene.diameter
     deepest_of_all = np.fmax.reduce(ratios, initial=-np.inf)
     if deepest_of_all > DEEPEST and not context.in_soil:
         return  # SBD022 reports the datum

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.checks.context import LintContext, records_of
-from mudline.checks.rules.seabed_position import depths
+from mudline.checks.rules.seabed_position import depths, mean_depths
 from mudline.language.codes.contact import GEO005, GEO017, SBD006
 from mudline.language.codes.lines import SYN014
 from mudline.language.diagnostics import Problem, Where
@@ -263,7 +263,7 @@ def _zeros(context: LintContext) -> Iterator[Problem]:
         if grant.kind is not LawKind.LINEAR or grant.stiffness != 0.0 or grant.unknown:
             continue
         elements = np.flatnonzero(scene.laws.of_element == index)
-        lying = elements[_depths(context, elements) >= 0.0]
+        lying = elements[mean_depths(context, elements) >= 0.0]
         if lying.size and "SEABED CONTACT" not in scene.extensions:
             which = scene.describe(lying, "lies", "lie")
             message = f"{which} at or below the seabed{_level(scene)} and this stiffness is 0: give another one"
@@ -324,7 +324,7 @@ def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
     seabed = bool(scene.laws.types or scene.laws.set_laws)
     lies = np.greater_equal if seabed else np.greater
     parts = (elements[block] for block in blocks_of(len(elements)))
-    lying = np.concatenate([part[lies(_depths(context, part), 0.0)] for part in parts])
+    lying = np.concatenate([part[lies(mean_depths(context, part), 0.0)] for part in parts])
     if lying.size:
         where = f"{'at or below' if seabed else 'below'} the seabed{_level(scene)}"
         yield without_law(scene, lying, f"lies {where}", f"lie {where}")
@@ -333,14 +333,3 @@ def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
 def _level(scene: Scene) -> str:
     """Return the level of a flat seabed for a message, or ""."""
     return " (X = 0)" if scene.seabed.kind is SeabedKind.FLAT else ""
-
-
-def _depths(context: LintContext, elements: Indices) -> Floats:
-    """Return lower bounds of the mean depth of each element's two nodes below the seabed; NaN if one is not known."""
-    scene = context.scene
-    mean_depths = np.full(len(elements), np.nan)
-    ends = scene.element_nodes[elements]
-    known = (ends >= 0).all(axis=1)
-    below = context.once(depths)[ends[known]]
-    mean_depths[known] = 0.5 * below[:, 0] + 0.5 * below[:, 1]
-    return mean_depths
