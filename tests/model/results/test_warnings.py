@@ -345,9 +345,9 @@ def test_the_reaction_of_a_rigid_seabed_is_not_known() -> None:
         ),
         (
             CLAY + CLAY.replace("4200", "5200").partition("\n")[2] + LAW.replace("50000.0", "Clay"),
-            LINE + 1,
-            "SBD025",
-            "curve 'Clay' has no effect: line 25 has one of the same name; rename it",
+            LINE + 4,
+            "REF004",
+            "curve 'Clay' is already defined: the later one is used (inferred); keep one of them",
         ),
         (
             CLAY.replace("Clay", "20000") + LAW.replace("50000.0", "20000"),

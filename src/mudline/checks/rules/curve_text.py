@@ -13,10 +13,10 @@ import numpy as np
 from mudline.basics.limits import MOST_REPORTED
 from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.suppression import MARK
-from mudline.language.codes.contact import REF003, SBD006, SBD017
+from mudline.language.codes.contact import REF003, REF004, SBD006, SBD017
 from mudline.language.deck.parameters import folded
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
+from mudline.language.diagnostics import Problem, Repair, Severity, Span, Where
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
@@ -25,11 +25,9 @@ from mudline.language.syntax.rows import line_spans, row_fields
 from mudline.language.syntax.tree import Leaf, LeafKind
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.curves import SceneCurve
-from mudline.model.scene.laws_in_use import idle_curves, named_as_numbers
+from mudline.model.scene.laws_in_use import idle_curves, named_as_numbers, repeated_curves
 from mudline.model.scene.numbering import Indices
 from mudline.model.scene.references import CURVES, repeated, unused
-
-REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
 
 
 @rule(REF003)
@@ -106,15 +104,7 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:8
     """
-    known: set[tuple[bool, str]] = set()
-    for curve in context.scene.laws.curves:
-        key = (curve.embedment, folded(curve.name))
-        if key in known and curve.name:
-            what = "set {} already has a curve" if curve.embedment else "curve {} is already defined"
-            what = what.format(shown(curve.name))
-            message = f"{what}: the later one is used (inferred); keep one of them"
-            yield Problem(REF004, message, where=curve.title)
-        known.add(key)
+    yield from repeated_curves(context.scene)
     yield from repeated(context.scene.context, CURVES, REF004)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.basics.short_repr import counted, cut
 from mudline.basics.spelling import Effort
-from mudline.language.codes.contact import REF003, SBD006, SBD017, SBD025
+from mudline.language.codes.contact import REF003, REF004, SBD006, SBD017, SBD025
 from mudline.language.codes.lines import SYN009
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
@@ -175,6 +175,19 @@ def named_as_numbers(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(SBD017, message, where=curve.title)
 
 
+def repeated_curves(scene: ResolvedDeck) -> Iterator[Problem]:
+    """Yield the curves that have the name, or in `*EMBEDMENT` the set, of an earlier one, which they override."""
+    known: set[tuple[bool, str]] = set()
+    for curve in scene.laws.curves:
+        key = (curve.embedment, folded(curve.name))
+        if key in known and curve.name:
+            what = "set {} already has a curve" if curve.embedment else "curve {} is already defined"
+            what = what.format(shown(curve.name))
+            message = f"{what}: the later one is used (inferred); keep one of them"
+            yield Problem(REF004, message, where=curve.title)
+        known.add(key)
+
+
 def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
     """Yield a problem for each curve that no element follows, with the reason.
 
@@ -182,34 +195,19 @@ def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
     variation may choose, is left out.
     """
     laws = scene.laws
-    used = set(distinct(laws.of_element[scene.law == LawKind.CURVE]).tolist())
+    used = distinct(laws.of_element[scene.law == LawKind.CURVE]).tolist()
     by_curve: dict[int, list[SetLaw]] = {}
-    followed: set[int] = set()
-    for index, grant in enumerate(laws.set_laws):
+    for grant in laws.set_laws:
         by_curve.setdefault(grant.curve, []).append(grant)
-        if index in used:
-            followed.add(grant.curve)
-    unnamed: list[SceneCurve] = []
-    idle = idle_curves(scene)
+    followed = {laws.set_laws[index].curve for index in used}
     for number, curve in enumerate(laws.curves):
-        name = folded(curve.name)
-        if number in followed or not name:
-            continue
-        if grants := by_curve.get(number):
-            if not any(grant.set_.open for grant in grants):
-                message = f"{_called(curve)} has no effect: {_reason(scene, grants[-1])}"
-                yield Problem(SBD025, message, where=curve.title)
-        elif later := [
-            other
-            for other in laws.curves[number + 1 :]
-            if (other.embedment, folded(other.name)) == (curve.embedment, name)
-        ]:
-            line = scene.line_of(later[-1].title)
-            message = f"{_called(curve)} has no effect: line {line} has one of the same name; rename it"
+        grants = by_curve.get(number, [])
+        if grants and curve.name and number not in followed and not any(grant.set_.open for grant in grants):
+            message = f"{_called(curve)} has no effect: {_reason(scene, grants[-1])}"
             yield Problem(SBD025, message, where=curve.title)
-        elif not curve.embedment and name in idle:
-            unnamed.append(curve)
+    yield from repeated_curves(scene)
     yield from named_as_numbers(scene)
+    unnamed = [curve for curve, *_ in idle_curves(scene).values()]
     if unnamed:
         names = ", ".join(shown(curve.name) for curve in unnamed)
         message = (
