@@ -156,7 +156,7 @@ def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Prob
         misplaced = scene.context.misplaced
         hiding = {one.maybe_defined_by for one in scene.blocking("cut")} & misplaced.keys()
         places = [misplaced[keyword][1] for keyword in hiding]
-        lines = {context.deck.place(Problem(SYN009, "", where=place)).line for place in places}
+        lines = {context.deck.place(place).line for place in places}
         unknown = [one for one in unknown if context.deck.place(one).line in lines]
     else:
         unknown = [one for one in unknown if one.repair]

@@ -11,12 +11,11 @@ import numpy as np
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.streams import View, emit, notify, require, write_text
-from mudline.language.codes.lines import SYN001
 from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.keyword_text import with_raw_lines
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
-from mudline.language.diagnostics import DeckError, Problem, Severity
+from mudline.language.diagnostics import DeckError, Severity
 from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.model import FEWEST_POINTS, Block
 
@@ -93,7 +92,7 @@ def _with_faults(deck: Deck, view: View) -> Deck:
     """The deck with its faulty blocks as lines; says which they are. Raises DeckError."""
     made, places = with_raw_lines(require_text(deck))
     for where in places:
-        line = deck.place(Problem(SYN001, "", where=where)).line
+        line = deck.place(where).line
         keyword = deck.sections[where.section].blocks[where.block].keyword
         view.note(f"{deck.file}:{line}: *{keyword} is carried as its lines: it has errors")
     return made

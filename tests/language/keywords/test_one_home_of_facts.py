@@ -41,7 +41,7 @@ EXCEPTIONS = {
     "editing/migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a surface would meet",
     "editing/migration/rewriting.py": "writes these blocks",
     "model/results/evaluation.py": "says what may make the elements, or the nodes, that a deck lacks",
-    "model/results/laws_in_use.py": "inner pipes need no law of the seabed",
+    "model/scene/laws_in_use.py": "inner pipes need no law of the seabed",
     "model/scene/weights.py": "what a deck gives to the weight of a line, and what of it is left out",
     "tools/reporting/content.py": "the title of a deck is that of its page",
     "tools/reporting/inputs.py": "the blocks that a checker asks for, in their order",

@@ -10,7 +10,6 @@ import numpy as np
 from mudline.checks.context import LintContext, records_of
 from mudline.checks.rules.model_parts import lacks, without_sections
 from mudline.checks.rules.references import in_water
-from mudline.checks.rules.seabed_position import first_of
 from mudline.checks.rules.seabed_support import in_another_pipe
 from mudline.language.codes.contact import SBD025
 from mudline.language.codes.references import REF010
@@ -25,7 +24,7 @@ from mudline.language.syntax.rows import read_number
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.laws import SetLaw, present
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.numbering import Floats, Indices, first_of
 from mudline.model.scene.references import KEYWORD, is_of_vessels
 from mudline.model.scene.sets import ALL, NamedSet
 
@@ -79,7 +78,7 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
             refined = before == keyword and (within(first, second, count) or within(second, first, count))
             if refined or first.open or second.open:
                 continue
-            which = first_of("element", scene.element_ids[elements.min()], elements.size)
+            which = first_of("element", scene.element_ids[np.sort(elements)])
             holds = "this line holds for them" if before == keyword else f"it is of *{before}, and which holds is open"
             words = f"{which} the values of SET={shown(first.name)}: {holds}"
             pair = frozenset((first.name, second.name))
@@ -128,7 +127,7 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
         covered[set_.elements] = True
     bare = np.flatnonzero(~(covered | without_sections(scene) | in_another_pipe(scene)))
     if bare.size:
-        what = first_of("element", scene.element_ids[bare[0]], bare.size)
+        what = first_of("element", scene.element_ids[bare])
         message = f"{what} without coefficients in *HYDRODYNAMIC SETS: give them, else neither drag nor added mass acts"
         yield Problem(GEO008, message, where=scene.table.numbered.where(int(bare[0])))
 
@@ -157,10 +156,10 @@ def parallel_elements(context: LintContext) -> Iterator[Problem]:
     _, firsts, same = np.unique(pairs[usable], return_index=True, return_inverse=True)
     twice = np.flatnonzero(firsts[same] != np.arange(len(usable)))
     if twice.size:
-        first, second = usable[firsts[same[twice[0]]]], usable[twice[0]]
-        which = first_of("element", scene.element_ids[second], twice.size)
+        first, second = usable[firsts[same[twice[0]]]], usable[twice]
+        which = first_of("element", scene.element_ids[second])
         message = f"{which} between nodes that element {scene.element_ids[first]} joins already: correct the nodes, or"
-        yield Problem(GEO014, f"{message} remove one", where=scene.table.numbered.where(int(second)))
+        yield Problem(GEO014, f"{message} remove one", where=scene.table.numbered.where(int(second[0])))
 
 
 @rule(BND001)
@@ -187,7 +186,7 @@ def held_twice(context: LintContext) -> Iterator[Problem]:
             same = all(lines[earlier].how == line.how for earlier in set(holder[again].tolist()))
             before = lines[int(holder[again[0]])].how[0]
             values = "in the same way" if same else f"at {before}, and at {line.how[0]} here"
-            node = first_of("node", scene.node_ids[again[0]], again.size)
+            node = first_of("node", scene.node_ids[again])
             message = f"degree of freedom {line.dof} of {node} is held above {values}"
             severity = Severity.INFO if same else None
             yield Problem(BND001, f"{message}: remove one of the lines, or correct it", None, severity, line.where)
@@ -389,7 +388,7 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
         elif not within(second, first, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
             message = (
                 f"this definition overrides the earlier one of SET={shown(first.name)} for "
-                f"{_counted(scene, elements)}: give each element one definition"
+                f"{scene.describe(np.sort(elements), '', '')}: give each element one definition"
             )
             yield earlier, Problem(SBD008, message, where=place)
 
@@ -405,10 +404,6 @@ def within(part: NamedSet, whole: NamedSet, count: int) -> bool:
     return len(part.elements) <= len(whole.elements) and bool(
         np.isin(part.elements, whole.elements, assume_unique=True).all()
     )
-
-
-def _counted(scene: Scene, elements: Indices) -> str:
-    return first_of("element", scene.element_ids[elements.min()], elements.size)
 
 
 def _alike(scene: Scene, left: SetLaw, right: SetLaw) -> bool:
@@ -437,7 +432,7 @@ def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
         held = elements[scene.laws.of_element[elements] != scene.laws.covered[elements]]
         if np.array_equal(first.points, second.points) or (elements.size and not held.size):
             continue
-        which = _counted(scene, held) if held.size else "elements"
+        which = first_of("element", scene.element_ids[np.sort(held)]) if held.size else "elements"
         message = (
             f"*EMBEDMENT gives another curve for {which}, of SET={shown(grants[earlier].set_.name)}: the later one is "
             "used, which is not documented (inferred); give each element one curve"

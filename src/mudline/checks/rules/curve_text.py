@@ -11,24 +11,23 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.checks.context import Found, Joined, LintContext, joint, records_of
+from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.suppression import MARK
-from mudline.language.codes.contact import REF003, SBD006, SBD017
+from mudline.language.codes.contact import REF003, REF004, SBD006, SBD017
 from mudline.language.deck.parameters import folded
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
+from mudline.language.diagnostics import Problem, Repair, Severity, Span, Where
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import first_key
-from mudline.language.syntax.rows import line_spans, read_number, row_fields
+from mudline.language.syntax.rows import line_spans, row_fields
 from mudline.language.syntax.tree import Leaf, LeafKind
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.curves import SceneCurve
+from mudline.model.scene.laws_in_use import idle_curves, named_as_numbers, repeated_curves
 from mudline.model.scene.numbering import Indices
 from mudline.model.scene.references import CURVES, repeated, unused
-
-REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
 
 
 @rule(REF003)
@@ -50,22 +49,9 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     Finds: 7:8
     """
     yield from unused(context.scene.context, CURVES, REF003)
-    if _chosen_elsewhere(context):
-        return
     scene = context.scene
-    names = {folded(curve.name) for curve in scene.laws.curves if not curve.embedment}
-    unknown = scene.referenced - names
-    idle: dict[str, list[SceneCurve]] = {}
-    for curve in scene.laws.curves:
-        name = folded(curve.name)
-        is_number = read_number(name) is not None  # a STIFFNESS= may mean it, which SBD017 reports
-        if curve.embedment or not curve.name or name in scene.referenced or is_number:
-            continue
-        if name in idle:
-            idle[name].append(curve)
-        elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which is reported there
-            idle[name] = [curve]
-    if not idle or (len(idle) == 1 and len(unknown) == 1):
+    idle = idle_curves(scene)
+    if not idle:
         return
     places = [curve.where for curves in idle.values() for curve in curves]
     repairs = removals(context.text, places) if context.text and _all_else_is_given(context) else {}
@@ -96,27 +82,6 @@ def _without_estimate(name: str) -> str:
     return _ESTIMATE.sub("", folded(name)).strip(" -_.")
 
 
-def _chosen_elsewhere(context: LintContext) -> bool:
-    """Return True if something that is not read, or not fixed, may use curves."""
-    scene = context.scene
-    own, all_sets = (records_of(blocks("SEABED PROPERTIES")) for blocks in (context.written, context.blocks))
-    pairs = zip(own, all_sets, strict=False)  # a continued deck adds more after them
-    if any(written.stiffness is not evaluated.stiffness for (_, written), (_, evaluated) in pairs):
-        return True  # an equation, whose parameters may be varied
-    if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.set_laws):
-        return True  # a set whose STIFFNESS= is not known
-    if any(gap.block >= 0 and not gap.path for gap in scene.laws.gaps):
-        return True  # a block of which no set is known
-    if "SEABED PROPERTIES" in scene.context.misplaced or (scene.context.restart and not scene.referenced):
-        return True
-    return any(
-        folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read
-        for _, variation in records_of(context.blocks("VARIATION", "PREPROCESSOR"), "variations")
-        for varied in variation.blocks
-        if varied.action == "ADD"
-    )
-
-
 def _all_else_is_given(context: LintContext) -> bool:
     """Return True if the deck has no error, and no law without stiffness, in whose place the curve may be meant."""
     if any(law.kind is LawKind.NONE for law in context.scene.laws.set_laws):
@@ -139,15 +104,7 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:8
     """
-    known: set[tuple[bool, str]] = set()
-    for curve in context.scene.laws.curves:
-        key = (curve.embedment, folded(curve.name))
-        if key in known and curve.name:
-            what = "set {} already has a curve" if curve.embedment else "curve {} is already defined"
-            what = what.format(shown(curve.name))
-            message = f"{what}: the later one is used (inferred); keep one of them"
-            yield Problem(REF004, message, where=curve.title)
-        known.add(key)
+    yield from repeated_curves(context.scene)
     yield from repeated(context.scene.context, CURVES, REF004)
 
 
@@ -211,10 +168,7 @@ def curve_named_as_number(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:8
     """
-    for curve in context.scene.laws.curves:
-        if not curve.embedment and curve.name and read_number(curve.name) is not None:
-            message = "the name of this curve reads as a number, and STIFFNESS= takes the number: choose another name"
-            yield Problem(SBD017, message, where=curve.title)
+    return named_as_numbers(context.scene)
 
 
 # ------------------------------------------------------------------------------------------------------ rows of points

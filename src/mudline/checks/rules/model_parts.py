@@ -10,7 +10,6 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from mudline.checks.context import LintContext, records_of
-from mudline.checks.rules.seabed_position import first_of
 from mudline.language.deck.model import Opaque, raw_lines
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Where
@@ -24,7 +23,7 @@ from mudline.language.syntax.rows import read_number
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Mask
+from mudline.model.scene.numbering import Mask, first_of
 from mudline.model.scene.sections import Section, format_of
 
 GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
@@ -346,7 +345,7 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
         return
     bare = np.flatnonzero((scene.section_table.of_element < 0) & ~without_sections(scene))
     if bare.size and bare.size < len(scene.element_ids):
-        what = first_of("element", scene.element_ids[bare[0]], bare.size)
+        what = first_of("element", scene.element_ids[bare])
         message = f"{what} without a line in *GEOMETRIC SETS: put it into a set that has one, or give it a section"
         yield Problem(GEO007, message, where=scene.table.numbered.where(int(bare[0])))
 
@@ -373,7 +372,7 @@ def node_without_element(context: LintContext) -> Iterator[Problem]:
     used |= context.once(_named_nodes)
     free = np.flatnonzero(~used & _placed(scene))
     if free.size:
-        what = first_of("node", scene.node_ids[free[0]], free.size)
+        what = first_of("node", scene.node_ids[free])
         message = f"{what} of no element: remove it, or correct the element that should end there"
         yield Problem(GEO009, message, where=scene.nodes.where(int(free[0])))
 
@@ -398,7 +397,7 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     held = context.once(_named_nodes)
     free = np.flatnonzero((counts == 1) & ~held & _placed(scene))
     if free.size and held.any():
-        what = first_of("node", scene.node_ids[free[0]], free.size)
+        what = first_of("node", scene.node_ids[free])
         at, it = ("the end of a line is", "it") if free.size == 1 else ("ends of lines are", "them")
         message = f"{what} at {at} held by nothing: add {it} to *BOUNDARY, or leave {it} if the end is free"
         yield Problem(GEO010, message, where=scene.nodes.where(int(free[0])))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 
 import numpy as np
 
@@ -12,12 +13,13 @@ from mudline.checks.rules.curve_points import is_upside_down
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
+from mudline.model.contact.seabed import heading
 from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.given_positions import FLAT
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Mask
-from mudline.model.scene.seabed import SeabedKind, SeabedShape
+from mudline.model.scene.numbering import Floats, Indices, Mask, first_of
+from mudline.model.scene.seabed import SeabedKind, SeabedShape, made_seabed
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
@@ -46,6 +48,14 @@ def depths(context: LintContext) -> Floats:
     return _depths(context.scene) if lowering is None else _depths(context.scene) - lowering
 
 
+def mean_depths(context: LintContext, elements: Indices | slice) -> Floats:
+    """Return the mean depth (k,) of the two nodes of some elements, see `depths`; NaN where one is not known."""
+    ends = context.scene.element_nodes[elements]
+    below = np.append(context.once(depths), np.nan)[ends]  # -1, an unknown node, is the last one
+    middle: Floats = 0.5 * below[:, 0] + 0.5 * below[:, 1]
+    return middle
+
+
 def _lowering(scene: Scene) -> Floats | None:
     """Return the depth (n,) by which trenches lower the seabed at nodes; None without any."""
     trenches = scene.extensions.get("SEABED TRENCH")
@@ -68,92 +78,34 @@ def _lowering(scene: Scene) -> Floats | None:
 
 
 def _depths(scene: Scene) -> Floats:
-    floor = scene.seabed
-    x, y, z = scene.coordinates.T
-    if not _is_bed(scene):
-        return np.full(len(x), np.nan)
+    floor, places = scene.seabed, scene.coordinates
+    unknown = np.full(len(places), np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
-        if floor.kind is SeabedKind.PLANES:
-            return _below_planes(floor, x, y, z)
-        if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
-            slope = np.radians(floor.slope)
-            depth: Floats = _along(floor.direction, y, z) * np.sin(slope) - x * np.cos(slope)
-            return depth
-        if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
-            return np.full(len(x), np.nan)
-        if floor.kind is SeabedKind.SURFACE:
-            return np.asarray(floor.points[:, 0].min() - x)
-        return _below_profile(floor, x, _along(floor.direction, y, z))
+        if floor.kind in (SeabedKind.PROFILE, SeabedKind.SURFACE):
+            if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
+                return unknown
+            if floor.kind is SeabedKind.SURFACE:
+                return np.asarray(floor.points[:, 0].min() - places[:, 0])
+            return _below_profile(floor, places)
+        if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
+            return unknown  # two seabeds, which is reported
+        with suppress(ValueError):  # illegal numbers are reported too
+            made_seabed(floor).gaps(places, unknown)
+    return 0.0 - unknown
 
 
-def _is_bed(scene: Scene) -> bool:
-    """Return True if slopes are below 90 degrees and the deck describes one seabed; other rules report the contrary."""
-    floor = scene.seabed
-    if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
-        return False
-    return all(abs(slope) < 90.0 for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
-
-
-def steepness(scene: Scene) -> Floats:
-    """Return slopes (n,) of the seabed under the nodes as a tangent, without sign, of a profile or a uniform slope.
-
-    NaN where they are not known.
-    """
-    floor = scene.seabed
-    _, y, z = scene.coordinates.T
-    if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
-        return np.full(len(y), abs(np.tan(np.radians(floor.slope))))
-    if floor.kind is not SeabedKind.PROFILE or floor.missing or floor.points.size == 0:
-        return np.full(len(y), np.nan)
-    points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
-    slopes = np.concatenate([[0.0], _slopes(points), [0.0]])
-    place = _along(floor.direction, y, z)
-    sides = (np.searchsorted(points[:, 0], place, side) for side in ("left", "right"))
-    steepest: Floats = np.maximum(*(slopes[side] for side in sides))
-    return steepest
-
-
-def _along(direction: float, y: Floats, z: Floats) -> Floats:
-    """Return the horizontal coordinate along which a seabed rises or falls that is constant across it."""
-    turned = np.radians(direction)
-    along: Floats = y * np.cos(turned) + z * np.sin(turned)
-    return along
-
-
-def _slopes(points: Floats) -> Floats:
-    widths, rises = np.diff(points, axis=0).T
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        slopes: Floats = np.abs(np.where(rises == 0.0, 0.0, rises / widths))
-    return slopes
-
-
-def _below_profile(floor: SeabedShape, x: Floats, along: Floats) -> Floats:
+def _below_profile(floor: SeabedShape, places: Floats) -> Floats:
     """Return lower bounds of the distances below the profile; beyond its ends, where it is level, they are exact."""
     points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
-    steepest = float(_slopes(points).max(initial=0.0))
+    widths, rises = np.diff(points, axis=0).T
+    with np.errstate(divide="ignore"):
+        steepest = float(np.abs(rises[rises != 0.0] / widths[rises != 0.0]).max(initial=0.0))
+    cosine, sine = heading(floor.direction)
+    x, y, z = places.T
+    along = y * cosine + z * sine
     below: Floats = np.interp(along, points[:, 0], points[:, 1]) - x
     below[(along >= points[0, 0]) & (along <= points[-1, 0])] /= np.hypot(1.0, steepest)
     return below
-
-
-def _below_planes(floor: SeabedShape, x: Floats, y: Floats, z: Floats) -> Floats:
-    """Return the depth below the highest plane whose bounds hold the node; of equally high planes the later counts."""
-    highest = np.full(len(x), -np.inf)
-    depth = np.full(len(x), np.nan)
-    for plane in floor.planes:
-        x0, y0, z0 = plane.point
-        slope = np.radians(plane.slope)
-        height = x0 + _along(plane.direction, y - y0, z - z0) * np.tan(slope)
-        y_min, y_max, z_min, z_max = plane.bounds
-        held = (y >= y_min) & (y <= y_max) & (z >= z_min) & (z <= z_max) & (height >= highest)
-        highest[held] = height[held]
-        depth[held] = ((height - x) * np.cos(slope))[held]
-    return depth
-
-
-def first_of(thing: str, first: int, count: int) -> str:
-    """Return elements or nodes in words: the number of the first one and their count."""
-    return f"{thing} {first}" if count == 1 else f"{count} {thing}s (first: {first})"
 
 
 @rule(SBD022)
@@ -181,7 +133,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
         limit = DEEPEST * _widest(scene)
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))
     if deep.size:
-        which = f"{first_of('node', scene.node_ids[deep[0]], deep.size)} lie{'s' * (deep.size == 1)}"
+        which = first_of("node", scene.node_ids[deep], "lies", "lie")
         message = f"{which} more than 5 diameters below the seabed: correct the datum of X{_surface(scene)}"
         yield Problem(SBD022, message, where=scene.nodes.where(int(deep[0])))
 
@@ -242,7 +194,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     for where, dof, nodes, _ in held:
         single = nodes[alone[nodes]]
         if single.size:
-            which = first_of("node", scene.node_ids[single[0]], single.size)
+            which = first_of("node", scene.node_ids[single])
             message = (
                 f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid seabed, and "
                 "both are held there: give both, or remove this one"
@@ -261,10 +213,19 @@ def _widest(scene: Scene) -> Floats:
 
 
 def _on_slope(context: LintContext) -> Mask:
-    """Return a mask (n,) of the nodes within a diameter of a seabed that is not level."""
-    scene = context.scene
-    near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
-    sloping: Mask = (steepness(scene) > 0.0) & (context.once(depths) >= -np.maximum(_widest(scene), near))
+    """Return a mask (n,) of the nodes within a diameter of a profile or a uniform slope that is not level."""
+    scene, floor = context.scene, context.scene.seabed
+    places, sloping = scene.coordinates, np.zeros(len(scene.node_ids), dtype=np.bool_)
+    if floor.kind not in (SeabedKind.SLOPING, SeabedKind.PROFILE):
+        return sloping
+    near = 1e-6 * np.abs(places).max(axis=1, initial=1e-3)  # coordinates are rounded when they are written
+    aside = near[:, np.newaxis] * (0.0, *heading(floor.direction))
+    normal = np.empty_like(places)
+    with suppress(ValueError):
+        for beside in (places - aside, places + aside):
+            made_seabed(floor).locate(beside, np.empty(len(places)), normal)
+            sloping |= normal[:, 1:].any(axis=1)
+    sloping &= context.once(depths) >= -np.maximum(_widest(scene), near)
     return sloping
 
 
@@ -295,11 +256,10 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     Finds: 14:2
     """
     scene = context.scene
-    if scene.seabed.kind is not SeabedKind.FLAT:
+    if scene.seabed.kind is not SeabedKind.FLAT or not scene.laws.curves:
         return
-    heights = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]  # -1, an unknown node, is the last one
     with np.errstate(over="ignore"):
-        ratios = -(0.5 * heights[:, 0] + 0.5 * heights[:, 1]) / scene.diameter
+        ratios = mean_depths(context, slice(None)) / scene.diameter
     deepest_of_all = np.fmax.reduce(ratios, initial=-np.inf)
     if deepest_of_all > DEEPEST and not context.in_soil:
         return  # SBD022 reports the datum

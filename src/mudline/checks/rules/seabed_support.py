@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.checks.context import LintContext, records_of
-from mudline.checks.rules.seabed_position import depths, first_of
+from mudline.checks.rules.seabed_position import depths, mean_depths
 from mudline.language.codes.contact import GEO005, GEO017, SBD006
 from mudline.language.codes.lines import SYN014
 from mudline.language.diagnostics import Problem, Where
@@ -17,8 +17,10 @@ from mudline.language.keywords.catalogue import is_superseded
 from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.given_positions import FLAT, NEAR
+from mudline.model.scene.laws import present
+from mudline.model.scene.laws_in_use import block_without_stiffness, without_law
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
+from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of, first_of
 from mudline.model.scene.rules.fields import SBD004
 from mudline.model.scene.seabed import SeabedKind, survey_of
 
@@ -113,7 +115,7 @@ def beyond_the_survey(context: LintContext) -> Iterator[Problem]:
     diameter = float(np.fmax.reduce(scene.diameter, initial=0.0, where=scene.law != LawKind.NONE))
     left = used[survey.left(scene.coordinates[used], diameter)]
     if left.size:
-        which = f"{first_of('node', scene.node_ids[left[0]], left.size)} lie{'s' * (left.size == 1)}"
+        which = first_of("node", scene.node_ids[left], "lies", "lie")
         yield Problem(GEO017, f"{which} {survey.end}: {survey.consequence}", where=scene.nodes.where(int(left[0])))
 
 
@@ -261,9 +263,9 @@ def _zeros(context: LintContext) -> Iterator[Problem]:
         if grant.kind is not LawKind.LINEAR or grant.stiffness != 0.0 or grant.unknown:
             continue
         elements = np.flatnonzero(scene.laws.of_element == index)
-        lying = elements[_depths(context, elements) >= 0.0]
+        lying = elements[mean_depths(context, elements) >= 0.0]
         if lying.size and "SEABED CONTACT" not in scene.extensions:
-            which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
+            which = scene.describe(lying, "lies", "lie")
             message = f"{which} at or below the seabed{_level(scene)} and this stiffness is 0: give another one"
             yield Problem(SBD006, message, where=grant.where)
 
@@ -304,16 +306,12 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     grants = scene.laws.set_laws
     last_open = max((index for index, grant in enumerate(grants) if grant.set_.open), default=-1)
     legacy_open = any(grant.set_.open for grant in grants if grant.family == "legacy")
-    groups = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
-    for index, first, count in zip(*(part.tolist() for part in groups), strict=True):
+    covered = scene.laws.covered[elements]
+    for index in present(covered):
         where = grants[index].where
         if legacy_open or last_open > index or grants[index].unknown or max(scene.laws.gaps, default=Where()) >= where:
             continue
-        which = f"{first_of('element', scene.element_ids[elements[first]], count)} get{'s' * (count == 1)}"
-        message = (
-            f"{which} no stiffness from this block, which overrides earlier ones as a whole: give STIFFNESS= here too"
-        )
-        yield Problem(SBD006, message, where=where)
+        yield block_without_stiffness(scene, index, elements[covered == index], "gets", "get")
 
 
 def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
@@ -326,32 +324,12 @@ def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
     seabed = bool(scene.laws.types or scene.laws.set_laws)
     lies = np.greater_equal if seabed else np.greater
     parts = (elements[block] for block in blocks_of(len(elements)))
-    lying = np.concatenate([part[lies(_depths(context, part), 0.0)] for part in parts])
+    lying = np.concatenate([part[lies(mean_depths(context, part), 0.0)] for part in parts])
     if lying.size:
         where = f"{'at or below' if seabed else 'below'} the seabed{_level(scene)}"
-        which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
-        message = f"{which} {where} and no seabed law applies: give STIFFNESS= to a set of them"
-        sets = (set_ for set_ in scene.set_table.named.values() if set_.where and lying[0] in set_.elements)
-        bare = [set_ for set_ in sets if (scene.law[set_.elements] == LawKind.NONE).all()]
-        properties = context.written("SEABED PROPERTIES")
-        place = properties[0][0] if bare and properties else scene.table.numbered.where(int(lying[0]))
-        yield Problem(SBD006, message, where=place)
+        yield without_law(scene, lying, f"lies {where}", f"lie {where}")
 
 
 def _level(scene: Scene) -> str:
     """Return the level of a flat seabed for a message, or ""."""
     return " (X = 0)" if scene.seabed.kind is SeabedKind.FLAT else ""
-
-
-def _depths(context: LintContext, elements: Indices) -> Floats:
-    """Return lower bounds of the mean depth of each element's two nodes below the seabed; NaN if one is not known."""
-    scene = context.scene
-    mean_depths = np.full(len(elements), np.nan)
-    ends = scene.element_nodes[elements]
-    known = (ends >= 0).all(axis=1)
-    if scene.seabed.kind is SeabedKind.FLAT:
-        below = 0.0 - scene.coordinates[ends[known], 0]
-    else:
-        below = context.once(depths)[ends[known]]
-    mean_depths[known] = 0.5 * below[:, 0] + 0.5 * below[:, 1]
-    return mean_depths

@@ -131,7 +131,7 @@ _LIGHT = (0.9, 1.3)
 """Range of densities of water in t/m3."""
 
 
-def units_of(context: LintContext) -> DeckUnits:
+def deck_units(context: LintContext) -> DeckUnits:
     """Return the units of a deck; user units are tonnes and kilonewtons if the last *OCEAN shows it."""
     if known := _KNOWN.get(context.scene.units):
         return known

@@ -288,8 +288,8 @@ def soft_unloading(scene: Scene, extension: Extension) -> Iterator[Problem]:
             unit = unit_names(scene.units).behind("stiffness")
             message = (
                 f"unloading stiffness {stiffness!r} is below the steepest slope of the loading law of "
-                f"{softer.size} elements (first: {scene.element_ids[softer[0]]}), "
-                f"{float(steepest[softer].max()):.6g}{unit}: it is raised to that; give at least as much"
+                f"{scene.describe(softer, '', '')}, {float(steepest[softer].max()):.6g}{unit}: it is raised to that; "
+                "give at least as much"
             )
             yield Problem(EXT008, message, where=where.inside("stiffness"))
 

@@ -27,9 +27,9 @@ from mudline.checks.rules.slips import (
     UNT007,
     UNT008,
     DeckUnits,
+    deck_units,
     lacks_point,
     likely_slips,
-    units_of,
 )
 from mudline.language.codes.fields import SYN015
 from mudline.language.deck.model import Opaque
@@ -55,7 +55,7 @@ def _by_code(context: LintContext) -> dict[str, list[Problem]]:
     Lines in which SYN015 found decimal commas are left out. If gravity, a density or a length is unusual, the weight of
     a pipe counts as unknown. If nodes lie too high for the depth of the water, that depth counts as unknown.
     """
-    deck = Numbers(context, units_of(context))
+    deck = Numbers(context, deck_units(context))
     with np.errstate(all="ignore"):  # numbers may be as large as they like
         judged = _of_deck(deck)
         measures = {each.usual.of for each in judged}

@@ -14,11 +14,10 @@ from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
 from mudline.editing.assignment.fields import FieldTarget, FieldValue, blocks_of, target_of, values_of
 from mudline.editing.assignment.paths import Assignment, WrittenOperand, parse_path
-from mudline.language.codes.fields import SYN003
 from mudline.language.deck.keyword_text import same_meaning
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
-from mudline.language.diagnostics import Diagnostic, Problem, Severity, Where
+from mudline.language.diagnostics import Diagnostic, Severity, Where
 from mudline.language.keywords.contents import range_fault
 from mudline.language.keywords.model import Part, record_schema
 from mudline.language.keywords.table import Table
@@ -75,7 +74,7 @@ def assigned(deck: Deck, assignment: Assignment, target: FieldTarget, units: str
         return None
     origin = cast("TextOrigin", deck.origin)
     span = origin.span(current.where)
-    line = _line(deck, current)
+    line = deck.place(current.where).line
     place = current.where._replace(path=current.where.path[:-2]) if isinstance(current.owner, Table) else current.where
     if span is None or not deck.written(place):
         raise AssignmentError(f"{target.path} is not written in the deck", line)
@@ -135,7 +134,7 @@ def _the_one(deck: Deck, target: FieldTarget, *, left_out: bool = False) -> Fiel
     candidates = list(islice(values_of(deck, target), LISTED * 100))
     written = [value for value in candidates if value.value is not None]
     if len(written) > 1:
-        lines = [str(_line(deck, value)) for value in written[: LISTED + 1]]
+        lines = [str(deck.place(value.where).line) for value in written[: LISTED + 1]]
         listed = ", ".join(lines[:LISTED]) + (", ..." if len(lines) > LISTED else "")
         raise AssignmentError(
             f"{target.path} is ambiguous: the deck has several such values, in lines {listed}; choose one by the name "
@@ -145,7 +144,7 @@ def _the_one(deck: Deck, target: FieldTarget, *, left_out: bool = False) -> Fiel
         return candidates[0]
     if not written and candidates:
         message = f"{target.path} is left out here: only a value that is written can be changed"
-        raise AssignmentError(message, _line(deck, candidates[0]))
+        raise AssignmentError(message, deck.place(candidates[0].where).line)
     if written:
         return written[0]
     read = deck.origin.read if isinstance(deck.origin, TextOrigin) else {}
@@ -155,10 +154,6 @@ def _the_one(deck: Deck, target: FieldTarget, *, left_out: bool = False) -> Fiel
         message = f"*{target.path.keyword} cannot be read: correct its errors first"
         raise AssignmentError(message, None, deck.diagnose(faults))
     return None
-
-
-def _line(deck: Deck, value: FieldValue) -> int:
-    return deck.place(Problem(SYN003, "", where=value.where)).line
 
 
 def _kinds(target: FieldTarget) -> Iterator[str]:

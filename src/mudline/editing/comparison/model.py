@@ -15,7 +15,7 @@ from mudline.language.codes.fields import SYN002, SYN006, SYN017
 from mudline.language.codes.references import REF013, REF014
 from mudline.language.deck.model import Origin
 from mudline.language.deck.parameters import Parameters
-from mudline.language.diagnostics import Blocks, DeckError, Problem, Where
+from mudline.language.diagnostics import Blocks, DeckError, Where
 from mudline.language.keywords.model import Block
 from mudline.model.scene.model import Scene
 
@@ -120,7 +120,7 @@ class Side:
         deck = self.scene.deck
         if type(deck.origin) is Origin or where is None or not 0 <= where.section < len(deck.own_sections):
             return None
-        return deck.origin.place(Problem(SYN002, "", where=where)).line
+        return deck.place(where).line
 
     def require(self) -> None:
         """Raise DeckError for parts that could not be read, and for equations without a value."""

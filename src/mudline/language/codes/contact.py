@@ -9,6 +9,7 @@ from __future__ import annotations
 from mudline.language.diagnostics import Code, Severity
 
 REF003 = Code("REF003", "unused-curve", Severity.WARNING)
+REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
 SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
 SBD017 = Code("SBD017", "curve-named-as-number", Severity.WARNING)
 SBD025 = Code("SBD025", "law-without-effect", Severity.WARNING)

@@ -11,7 +11,6 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic.json_schema import models_json_schema
 
 from mudline.basics.quantities import UNIT_SYSTEMS
-from mudline.language.codes import DOC002
 from mudline.language.deck import MARK
 from mudline.language.deck.faults import Faults, Locate, document_path, refusal, respelt
 from mudline.language.deck.keyword_text import is_faulty, raw_places, sampled, to_keyword
@@ -49,7 +48,7 @@ def _require_readable(deck: Deck) -> None:
 
     def locate(path: DocumentPath) -> Range:
         section, block, *_ = (*(part for part in path[:4] if isinstance(part, int)), -1, -1)
-        return deck.place(Problem(DOC002, "", where=Where(section, block)))
+        return deck.place(Where(section, block))
 
     light = sampled(deck)
     for one, whole in zip(light.sections, deck.sections, strict=True):

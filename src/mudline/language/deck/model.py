@@ -89,6 +89,8 @@ _INTERNAL = frozenset(
 """Names that the program itself uses; `dir` leaves them out."""
 
 START = Range(1, 1, 1, 1)
+_PLACED = Code("", "", Severity.INFO)
+"""Code of a value whose place is asked for."""
 
 
 class NamedPlace(NamedTuple):
@@ -231,9 +233,9 @@ class Deck:
         base = self.base_of(problem.where)
         return (base[0], replace(problem, where=base[1])) if base else (self, problem)
 
-    def place(self, problem: Problem) -> Range:
-        """Return lines and columns of a problem, in the file that it belongs to."""
-        deck, own = self._owned(problem)
+    def place(self, problem: Problem | Where) -> Range:
+        """Return lines and columns of a problem or a value, in the file that it belongs to."""
+        deck, own = self._owned(problem if isinstance(problem, Problem) else Problem(_PLACED, "", where=problem))
         return deck.origin.place_in_file(own)
 
     def lost(self, where: Where) -> int:

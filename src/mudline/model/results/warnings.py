@@ -24,10 +24,10 @@ from mudline.model.contact import ContactModel, ContactResult, LawKind
 from mudline.model.contact.columns import kept
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation, PositionSource, evaluate_scene
-from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.model.scene.given_positions import Doubt, height_along_z, position_doubts
+from mudline.model.scene.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices, distinct
+from mudline.model.scene.numbering import Floats, Indices, distinct, first_of
 from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.weights import (
     PipeContents,
@@ -286,8 +286,8 @@ class ContactWatch:
         all_without = not self._acts and self._clearance[1] < 0  # GEO005 then says it of the whole line
         if self._survey is None or not left.size or all_without:
             return
-        scene, number = self._scene, self._scene.node_ids[left[0]]
-        which = f"node {number} lies" if left.size == 1 else f"{left.size} nodes (first: {number}) lie"
+        scene = self._scene
+        which = first_of("node", scene.node_ids[left], "lies", "lie")
         at = "" if self._times is None else f", from time {shown(float(self._times[self._left_at]))} on"
         message = f"{which} {self._survey.end}{at}: {self._survey.consequence}"
         elements = self._elements[self._left[scene.element_nodes[self._elements]].any(axis=1)]

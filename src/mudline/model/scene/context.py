@@ -314,11 +314,11 @@ class Context:
 
     def is_guessed_label(self, where: Where) -> bool:
         """Return True if the label at this place was guessed from a word without braces, which is reported."""
-        return self._position(Problem(SYN016, "", where=where)) in self._guessed_labels
+        return self._position(where) in self._guessed_labels
 
     def cannot_place(self, where: Where) -> None:
         """Remember that an element ends at the label at this place, and that no node with that label is known."""
-        self._placeless.add(self._position(Problem(SYN016, "", where=where)))
+        self._placeless.add(self._position(where))
 
     def of_deck(self) -> list[Problem]:
         """Return the problems of reading the deck; guessed labels that elements end at are errors."""
@@ -331,8 +331,8 @@ class Context:
             for problem in self.deck.problems
         ]
 
-    def _position(self, problem: Problem) -> tuple[int, int]:
-        """Return line and column of a problem."""
+    def _position(self, problem: Problem | Where) -> tuple[int, int]:
+        """Return line and column of a problem or a value."""
         place = self.deck.place(problem)
         return place.line, place.column
 

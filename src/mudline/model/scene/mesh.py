@@ -19,6 +19,7 @@ from mudline.model.scene.numbering import (
     Indices,
     Numbered,
     blocks_of,
+    first_of,
     whole_numbers,
 )
 
@@ -285,9 +286,8 @@ def _report_repeats(context: Context, numbered: Numbered, repeats: Indices, thin
         for row in rows[: MOST_REPORTED + 1 if batch.table else 1].tolist():
             where, number = numbered.where_row(row), batch.ids[row - numbered.starts[index]]
             first = numbered.where_row(int(numbered.firsts[numbered.indices(np.array([number]))[0]]))
-            single = bool(batch.table) or len(rows) == 1
-            what = f"{thing} {number} is" if single else f"{len(rows)} {thing}s (first: {number}) are"
-            message = f"{what} defined twice: the later definition holds; remove one"
+            same = np.array([number]) if batch.table else batch.ids[rows - numbered.starts[index]]
+            message = f"{first_of(thing, same, 'is', 'are')} defined twice: the later definition holds; remove one"
             if first.section == where.section:
                 context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))
             else:

@@ -36,6 +36,14 @@ def looked_up(table: NDArray[_Kind], indices: Indices) -> NDArray[_Kind]:
     return table[indices]
 
 
+def first_of(thing: str, numbers: Ids, one: str = "", many: str = "") -> str:
+    """Return numbered things with a verb in words: `node 3 lies`, or `4 nodes (first: 3) lie`."""
+    what = (
+        f"{thing} {numbers[0]} {one}" if len(numbers) == 1 else f"{len(numbers)} {thing}s (first: {numbers[0]}) {many}"
+    )
+    return what.rstrip()
+
+
 def blocks_of(count: int) -> Iterator[slice]:
     """Return slices of at most some thousand rows, which limit the size of temporary arrays."""
     return (slice(start, min(start + _AT_ONCE, count)) for start in range(0, count, _AT_ONCE))

@@ -28,7 +28,7 @@ from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import MeshElements
-from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
+from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered, first_of
 from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import SectionTable, Surroundings, read_surroundings
@@ -260,7 +260,7 @@ class ResolvedDeck:
 
     def line_of(self, where: Where | None) -> int:
         """Return the line of a place in its file; 0 for none."""
-        return 0 if where is None else self.deck.place(Problem(RUN001, "", where=where)).line
+        return 0 if where is None else self.deck.place(where).line
 
     def set_law(self, element: int) -> SetLaw | None:
         """Return the law of the set through which the element of an index has its law."""
@@ -326,8 +326,7 @@ class ResolvedDeck:
 
     def describe(self, elements: Mask | Indices, one: str = "has", many: str = "have") -> str:
         """Return elements for a message, given as mask or indices: `element 3 has`, or `4 elements (first: 3) have`."""
-        ids = self.element_ids[elements]
-        return f"element {ids[0]} {one}" if ids.size == 1 else f"{ids.size} elements (first: {ids[0]}) {many}"
+        return first_of("element", self.element_ids[elements], one, many)
 
     def law_name(self, set_law: SetLaw) -> str:
         """Return the name of the law that a set_law gives."""

@@ -21,7 +21,7 @@ from mudline.basics.outside import without_text
 from mudline.basics.short_repr import counted, short_repr
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.text import shown
-from mudline.model.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed, heading
+from mudline.model.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed, heading
 from mudline.model.scene.context import Context
 from mudline.model.scene.data_files import lines_of, number_of
 from mudline.model.scene.deck_values import file_name, find_file, number
@@ -184,7 +184,9 @@ def parse_profile(data: bytes, name: str, columns: int) -> Floats:
 
 
 def made_seabed(seabed: SeabedShape) -> Seabed:
-    """Return the evaluator's seabed for one that is not flat; raises ValueError if its numbers form no seabed."""
+    """Return the evaluator's seabed; raises ValueError if its numbers form none."""
+    if seabed.kind is SeabedKind.FLAT:
+        return FlatSeabed()
     if seabed.kind is SeabedKind.SLOPING:
         return SlopingSeabed(seabed.slope, seabed.direction)
     if seabed.kind is SeabedKind.PROFILE:
@@ -212,7 +214,7 @@ class SeabedLine(NamedTuple):
 
 def elevations(seabed: SeabedShape, places: Floats) -> Floats:
     """Return elevations (n,) of a seabed at Y and Z (n, 2); NaN where there is none."""
-    return np.zeros(len(places)) if seabed.kind is SeabedKind.FLAT else made_seabed(seabed).elevation(*places.T.copy())
+    return made_seabed(seabed).elevation(*places.T.copy())
 
 
 def plane_below(seabed: SeabedShape, start: Floats, direction: Floats, distance: float) -> SeabedLine | None:

@@ -18,11 +18,10 @@ from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, lint_context
 from mudline.checks.fixing import with_severities
 from mudline.checks.verdict import all_findings, errors_of
-from mudline.language.codes.lines import SYN001
 from mudline.language.deck.loading import coverage_of, extent, load_bytes
 from mudline.language.deck.model import Deck, Opaque, raw_lines
 from mudline.language.deck.parameters import Parameters, folded, name_key
-from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
+from mudline.language.diagnostics import DeckError, Diagnostic, Severity, Where
 from mudline.language.keywords.catalogue import is_extension, is_superseded
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.keywords.writer import block_lines
@@ -199,7 +198,7 @@ def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None)
 
 
 def _line(deck: Deck, where: Where | None) -> int | None:
-    return None if where is None else deck.place(Problem(SYN001, "", where=where)).line
+    return None if where is None else deck.place(where).line
 
 
 def _findings(findings: Iterable[Diagnostic]) -> Iterator[FindingRow]:

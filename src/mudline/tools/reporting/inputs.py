@@ -11,9 +11,8 @@ from typing import Any
 import numpy as np
 
 from mudline.basics.quantities import finite, labelled, shown, unit_names
-from mudline.language.codes.contact import SBD025
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.diagnostics import Problem, Where
+from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.format import unit_text
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, record_schema
@@ -40,10 +39,9 @@ def inputs_of(scene: Scene) -> list[dict[str, Any]]:
         for number, block in enumerate(section.blocks):
             subjects = (entry.subject for entry in catalogue.entries(block.keyword) if section.name in entry.sections)
             if section.name == "LOAD CASE" or block.keyword in _MODEL or "vessels" in subjects:
-                (place,) = scene.deck.diagnose([Problem(SBD025, "", where=Where(index, number))])
                 values = "; ".join(filter(None, values_in_words(block, scene.units)))
                 row = {"section": name, "keyword": block.keyword, "values": values}
-                rows.append(row | {"file": place.file, "line": place.line})
+                rows.append(row | _place(scene, Where(index, number)))
     return rows
 
 
@@ -131,11 +129,16 @@ def laws_of(scene: Scene) -> Iterator[dict[str, Any]]:
 
 
 def _law(scene: Scene, law: str, set_name: str | None, follow: Mask, where: Where) -> dict[str, Any]:
-    (place,) = scene.deck.diagnose([Problem(SBD025, "", where=where)])
     name = set_name or "ALL"
     known = scene.set_table.find(name)
     counts = {"elements": int(follow.sum()), "open": known is not None and known.open}
-    return {"law": law, "set": name} | counts | {"file": place.file, "line": place.line}
+    return {"law": law, "set": name} | counts | _place(scene, where)
+
+
+def _place(scene: Scene, where: Where) -> dict[str, Any]:
+    """Return the file and the line of a block or a record."""
+    base = scene.deck.base_of(where)
+    return {"file": base[0].file if base else scene.deck.file, "line": scene.line_of(where)}
 
 
 def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direction

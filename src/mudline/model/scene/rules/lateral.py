@@ -66,7 +66,7 @@ def bad_trench(scene: ResolvedDeck, extension: Extension) -> Iterator[Problem]:
         message = "a trench and no lateral friction spring: give *SEABED FRICTION for them"
         yield from of_elements(scene, held & bare, _of_friction(scene, message, where.inside("set")))
         if np.any(both := held & locked):
-            yield _of_friction(scene, f"{_LOCKED}: {scene.describe(both, '', '').rstrip()}", where.inside("geometry"))
+            yield _of_friction(scene, f"{_LOCKED}: {scene.describe(both, '', '')}", where.inside("geometry"))
 
 
 def _of_friction(scene: ResolvedDeck, message: str, where: Where) -> Problem:
