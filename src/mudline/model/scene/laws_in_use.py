@@ -148,7 +148,7 @@ def _chosen_elsewhere(scene: ResolvedDeck) -> bool:
     context, laws = scene.context, scene.laws
     for where, block in context.blocks("SEABED PROPERTIES"):
         if where.section < len(context.deck.own_sections):
-            written = cast("SeabedProperties", context.as_written(where))
+            written = cast("SeabedProperties", context.written.at(where))
             pairs = zip(written.sets, block.sets, strict=True)
             if any(before.stiffness is not after.stiffness for before, after in pairs):
                 return True  # an equation, whose parameters may be varied
