@@ -34,7 +34,6 @@ from mudline.language.diagnostics import (
     Severity,
     strongest,
 )
-from mudline.language.keywords.contents import repeated_set
 from mudline.language.keywords.model import Block
 from mudline.language.rules import Rule, findings
 
@@ -104,7 +103,7 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     comments of the deck suppress are included.
     """
     meant: Recovered | None = None
-    if context.text and (may_recover(context.deck) or context.scene.lacks):
+    if context.text and (may_recover(context.deck) or context.scene.lacks_curves):
         from mudline.checks.recovery.engine import recovered  # noqa: PLC0415 - many decks do without
 
         meant = recovered(context, {rule.code.code for rule in chosen}, suppress=suppress)
@@ -175,8 +174,6 @@ def may_recover(deck: Deck) -> bool:
             return True
         facts = block.facts
         if facts.defines and (count[block.keyword] > 1 or not all(map(count.__contains__, facts.beside))):
-            return True
-        if facts.later_wins and repeated_set(block):
             return True
     return False
 
