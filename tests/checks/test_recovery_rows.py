@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from mudline.api import read
 from mudline.checks.engine import Fixing, LintSettings
 from mudline.checks.fixing import lint_one
 from mudline.checks.registry import rules
-from mudline.language.diagnostics import Severity
+from mudline.language.diagnostics import DeckError, Severity
 from tests.checks.test_recovery import DECK, changed, found, only
 from tests.cli.runner import run
 
@@ -256,6 +257,21 @@ def test_a_refusal_names_the_causes(command: str, tmp_path: Path) -> None:
     assert done.code != 0
     told_ = re.findall(r":([0-9]+):[0-9]+: \w+: ([A-Z]+[0-9]+) ", done.err)
     assert told_ == [("11", "SYN003"), ("25", "REF001")]
+
+
+@pytest.mark.parametrize(
+    "command", [["convert", "--to", "json"], ["diff", "deck.keyxm"], ["expand", "--dry-run"], ["format", "--check"]]
+)
+def test_a_deck_that_cannot_be_read_is_refused_with_the_cause(
+    command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("deck.keyxm").write_text(DECK.replace("*ELEMENT SETS\n", ""), encoding="utf-8")
+    done = run(*command, "deck.keyxm")
+    assert re.findall(r":([0-9]+):[0-9]+: \w+: ([A-Z]+[0-9]+) ", done.err) == [("11", "SYN004")]
+    with pytest.raises(DeckError) as caught:
+        read("deck.keyxm")
+    assert [(one.line, one.code) for one in caught.value.diagnostics] == [(11, "SYN004")]
 
 
 def test_a_keyword_whose_block_does_not_read_is_not_taken_for_another_one() -> None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import JOINTS, ROW_NUMBER, Joined, LintContext, also_in, read_deck
@@ -197,6 +197,19 @@ def naming_causes(deck: Deck) -> Iterator[None]:
         yield
     except DeckError as error:
         raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
+
+
+D = TypeVar("D", bound=Deck)
+
+
+def readable(deck: D) -> D:
+    """Return a deck; raises DeckError if something could not be read, with causes instead of their consequences."""
+    if errors := deck.errors():
+        context = LintContext(deck)
+        found = joined_problems(context, rules(), suppress=False)
+        causes = [one for one in found if one.weight is Severity.ERROR and one.code.code.startswith("SYN")]
+        raise DeckError(context.deck.diagnose(causes) or deck.diagnose(errors))
+    return deck
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
