@@ -18,7 +18,7 @@ from mudline.basics.arguments import expect, expect_word, given_path, read_only,
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.checks.configuration import Configured
-from mudline.checks.engine import lint_bytes
+from mudline.checks.engine import lint_bytes, naming_causes, readable
 from mudline.checks.registry import select as _chosen
 from mudline.language.deck import model
 from mudline.language.deck.forms import KEYWORD, form_of
@@ -98,7 +98,8 @@ class Deck(TypedDeck):
         Raises:
             DeckError: the deck has errors on which a result depends.
         """
-        return Scene(scenes.resolve(self.alone.placed()).require())
+        with naming_causes(self):
+            return Scene(scenes.resolve(self.alone.placed()).require())
 
 
 class Scene:
@@ -430,7 +431,7 @@ def content_as(deck: Deck, name: str) -> bytes:
 
 def public(deck: model.Deck) -> Deck:
     """Return the public form of a deck; raises DeckError if something in it could not be read."""
-    return Deck(**vars(deck.require()))
+    return Deck(**vars(readable(deck)))
 
 
 def given_rules(select: Iterable[str], ignore: Iterable[str]) -> tuple[Rule, ...]:

@@ -18,7 +18,7 @@ from mudline.basics.files import write_atomically
 from mudline.basics.quantities import csv_lines
 from mudline.checks.configuration import Configured
 from mudline.checks.context import read_deck
-from mudline.checks.engine import naming_causes
+from mudline.checks.engine import naming_causes, readable
 from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.loading import dump, load_bytes, load_path
 from mudline.language.diagnostics import DeckError, Diagnostic
@@ -109,14 +109,14 @@ def formatted_file(data: bytes, name: str) -> bytes:
 
     Raises DeckError with the causes of read errors, and FormatError, a ValueError, as `format` does.
     """
-    from mudline.checks.verdict import unreadable_causes  # noqa: PLC0415 - each function brings what it needs
-    from mudline.editing.formatting.document import formatted  # noqa: PLC0415 - as above
+    from mudline.editing.formatting.document import formatted  # noqa: PLC0415 - each function brings what it needs
 
     try:
         return formatted(data, name)
-    except DeckError as error:
-        causes = unreadable_causes(read_deck(data, name)) if form_of(name) == KEYWORD else []
-        raise DeckError(causes or error.diagnostics) from error
+    except DeckError:
+        if form_of(name) == KEYWORD:
+            readable(read_deck(data, name))
+        raise
 
 
 def fix(deck: GivenDeck, *, select: Iterable[str] = (), ignore: Iterable[str] = (), unsafe: bool = False) -> Fixed:
@@ -281,7 +281,7 @@ def diff(
             raise FileNotFoundError(errno.ENOENT, "no deck in these folders", " and ".join(folders))
         differences = [each for deck in decks for each in deck.comparison.differences]
         return compared.Comparison(differences, [each for deck in decks for each in deck.comparison.spelling], decks)
-    first, second = (given_deck(*each).alone.placed() for each in ((before, "before"), (after, "after")))
+    first, second = (readable(given_deck(*each)).alone.placed() for each in ((before, "before"), (after, "after")))
     return compared.compare_decks(first, second, tolerance, strict=strict)
 
 

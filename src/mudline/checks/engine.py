@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import JOINTS, ROW_NUMBER, Joined, LintContext, also_in, read_deck
@@ -34,7 +34,6 @@ from mudline.language.diagnostics import (
     Severity,
     strongest,
 )
-from mudline.language.keywords.contents import repeated_set
 from mudline.language.keywords.model import Block
 from mudline.language.rules import Rule, findings
 
@@ -104,7 +103,7 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     comments of the deck suppress are included.
     """
     meant: Recovered | None = None
-    if context.text and (may_recover(context.deck) or context.scene.lacks):
+    if context.text and (may_recover(context.deck) or context.scene.lacks_curves):
         from mudline.checks.recovery.engine import recovered  # noqa: PLC0415 - many decks do without
 
         meant = recovered(context, {rule.code.code for rule in chosen}, suppress=suppress)
@@ -176,8 +175,6 @@ def may_recover(deck: Deck) -> bool:
         facts = block.facts
         if facts.defines and (count[block.keyword] > 1 or not all(map(count.__contains__, facts.beside))):
             return True
-        if facts.later_wins and repeated_set(block):
-            return True
     return False
 
 
@@ -200,6 +197,19 @@ def naming_causes(deck: Deck) -> Iterator[None]:
         yield
     except DeckError as error:
         raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
+
+
+D = TypeVar("D", bound=Deck)
+
+
+def readable(deck: D) -> D:
+    """Return a deck; raises DeckError if something could not be read, with causes instead of their consequences."""
+    if errors := deck.errors():
+        context = LintContext(deck)
+        found = joined_problems(context, rules(), suppress=False)
+        causes = [one for one in found if one.weight is Severity.ERROR and one.code.code.startswith("SYN")]
+        raise DeckError(context.deck.diagnose(causes) or deck.diagnose(errors))
+    return deck
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:

@@ -87,12 +87,6 @@ def errors_of(problems: list[Problem]) -> list[Problem]:
     return [problem for problem in problems if problem.weight is Severity.ERROR]
 
 
-def unreadable_causes(deck: Deck) -> list[Diagnostic]:
-    """Return why a deck cannot be read, as lint reports it: causes instead of their consequences."""
-    context = LintContext(deck)
-    return context.deck.diagnose([one for one in errors_of(all_findings(context)) if one.code.code.startswith("SYN")])
-
-
 def errors_beside(deck: Deck) -> list[Diagnostic]:
     """Return the errors of a deck in spite of which it is evaluated: contact does not depend on them."""
     context = LintContext(deck)

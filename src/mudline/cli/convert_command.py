@@ -8,6 +8,8 @@ from pathlib import Path, PurePath
 import click
 import numpy as np
 
+from mudline.checks.context import LintContext
+from mudline.checks.engine import readable
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.streams import View, emit, notify, require, write_text
@@ -15,7 +17,7 @@ from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.keyword_text import with_raw_lines
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
-from mudline.language.diagnostics import DeckError, Severity
+from mudline.language.diagnostics import DeckError
 from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.model import FEWEST_POINTS, Block
 
@@ -70,7 +72,7 @@ def command(
     if source is None and suffix in _OTHER_SHEETS:
         raise click.UsageError(f"{deck.path}: {suffix} cannot be read: save it as .xlsx in the spreadsheet program")
     given = _tables(deck, kind) if kind in _TABLES else deck.load(source)
-    read = _with_faults(given, view) if keep_faults else given.require()
+    read = _with_faults(given, view) if keep_faults else readable(given)
     if form != "keyword":
         _require_values(read)
     if anonymous:
@@ -177,12 +179,9 @@ def _require_values(deck: Deck) -> None:
     blocks = (block for section in deck.sections for block in section.blocks)
     if not any(isinstance(block, Block) and is_refused(block) for block in blocks):
         return
-    from mudline.checks.context import LintContext  # noqa: PLC0415 - as above
-    from mudline.checks.engine import joined_problems  # noqa: PLC0415 - only a faulty deck is checked
-    from mudline.checks.registry import rules  # noqa: PLC0415 - as above
+    from mudline.checks.verdict import all_findings, errors_of  # noqa: PLC0415 - only a faulty deck is checked
 
-    found = joined_problems(LintContext(deck), rules(), suppress=False)
-    raise DeckError(deck.diagnose([one for one in found if one.weight is Severity.ERROR]))
+    raise DeckError(deck.diagnose(errors_of(all_findings(LintContext(deck)))))
 
 
 def _form_of_output(output: str | None) -> str:

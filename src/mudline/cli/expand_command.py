@@ -8,6 +8,7 @@ import click
 
 from mudline.basics.display import DisplayTable, text
 from mudline.basics.short_repr import counted
+from mudline.checks.engine import readable
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import View, emit, make_folder, notify, notify_some, write_bytes, write_text
@@ -39,7 +40,7 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
     """
     if output is None and not dry_run:
         raise click.UsageError("no folder to write to: give -o DIR, or --dry-run")
-    planned = plan(deck.load())
+    planned = plan(readable(deck.load()))
     for note in planned.notes:
         notify(note)
     notify_some([] if output is None else [_NOT_COPIED.format(name) for name in lacking(Path(output), planned)], _MORE)
