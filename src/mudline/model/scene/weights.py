@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.values import known_name
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask, picked
-from mudline.model.scene.sections import stiffnesses
+from mudline.model.scene.sections import Section, format_of
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import Masses, PointMass
@@ -142,6 +143,49 @@ def left_out(scene: ResolvedDeck, *, with_masses: bool = True) -> list[str]:
 
 # ----------------------------------------------------------------------------------------------------------------- pipe
 
+
+class Stiffnesses(NamedTuple):
+    """Axial, bending and torsional stiffness of a section in the deck's units; NaN where the deck gives none."""
+
+    axial: float
+    bending: float
+    torsion: float
+
+
+def stiffnesses(scene: ResolvedDeck, section: Section) -> Stiffnesses:
+    """Return the stiffness of a section; for curves it is the slope at 0."""
+    row = section.entry.section
+    if format_of(section.entry) != "rigid":
+        return Stiffnesses(
+            _modulus(scene, section, number(row, "ea"), "ea_curve"),
+            _modulus(scene, section, number(row, "eiyy"), "eiyy_curve", "ei_curve"),
+            _modulus(scene, section, number(row, "gj"), "gj_curve"),
+        )
+    outer, inner = np.float64(number(row, "do")), np.float64(number(row, "di", 0.0))
+    with np.errstate(over="ignore", invalid="ignore"):  # a float would raise where a power is infinite
+        area = number(row, "area", float(math.pi / 4 * (outer**2 - inner**2)))
+        second = number(row, "second_moment", float(math.pi / 64 * (outer**4 - inner**4)))
+    young = _modulus(scene, section, number(row, "e"), "e_curve")
+    return Stiffnesses(young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second))
+
+
+STIFFNESS_CURVES = {"ea_curve": "FORCE-STRAIN", "e_curve": "STRESS/STRAIN DIRECT", "gj_curve": "TORQUE-TWIST"}
+BENDING_CURVES = "MOMENT-CURVATURE"
+"""Keyword of bending curves; STIFFNESS_CURVES has those of other stiffnesses by the setting that names them."""
+
+
+def _modulus(scene: ResolvedDeck, section: Section, given: float, *settings: str) -> float:
+    """Return a stiffness: the number, else the slope at 0 of the curve that replaces it; NaN without both."""
+    name = next(filter(None, (getattr(section.entry, setting, None) for setting in settings)), None)
+    if not math.isnan(given) or name is None:
+        return given
+    keyword = STIFFNESS_CURVES.get(settings[0], BENDING_CURVES)
+    for each in scene.other_curves:
+        if each.keyword == keyword and folded(each.name) == folded(str(name)):
+            return float(each.curve.slopes[each.curve.segment(0.0)]) if each.usable and each.curve else math.nan
+    return math.nan
+
+
 _DRAG, _INERTIA, _ADDED_MASS = 1.0, 2.0, 1.0
 """Coefficients of an element without any in the deck, and defaults of fields that a line may omit."""
 
@@ -156,7 +200,7 @@ class Pipe(NamedTuple):
     drag: Cd rho D / 2, the transverse force of water at a velocity of 1.
     drag_coefficient, added_mass_coefficient: Cd and Ca.
     has_coefficients: False where these are assumed.
-    bending, axial: EI and EA, for curves their slope at 0; 0 for sections without bending stiffness.
+    bending, axial: EI and EA, for curves their slope at 0.
     axial_drag_coefficient, axial_added_mass: values along the pipe, 0 if not given.
     """
 
@@ -185,7 +229,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
     size = np.where(size > 0.0, size, table.values("do", "dd"))
     with np.errstate(all="ignore"):
         displaced = around.density * math.pi / 4.0 * size * size
-        of_sections = [stiffnesses(scene.deck, section) for section in table.sections]
+        of_sections = [stiffnesses(scene, section) for section in table.sections]
         return Pipe(
             weight=scene.submerged_weight + inside * around.gravity,
             mass=scene.mass_per_length,
@@ -195,7 +239,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
             drag_coefficient=drag,
             added_mass_coefficient=added,
             has_coefficients=from_deck,
-            bending=np.nan_to_num(picked((each.bending for each in of_sections), table.of_element)),
+            bending=picked((each.bending for each in of_sections), table.of_element),
             axial=picked((each.axial for each in of_sections), table.of_element),
             axial_drag_coefficient=along[:, 0],
             axial_added_mass=along[:, 1] * displaced,
