@@ -120,14 +120,14 @@ def _seabed(given: ContactInput) -> str:
 
 def _normal_law(given: ContactInput, tables: LawTables, choice: BackendChoice) -> str:
     parts = []
-    curves = [rows for rows in tables.normal if rows.curve >= 0]
+    curves = [rows for rows in tables.normal if rows.curve is not None]
     if curves:
         cut = ", pulling forces cut to 0" if given.tension == "cut" else ""
         elements = counted(sum(len(rows.rows) for rows in curves), "element")
         parts.append(f"{elements} on {counted(len(curves), 'force-embedment curve')}{cut}")
     of_plan: dict[str, int] = {}
     for rows in tables.normal:
-        if rows.curve < 0:
+        if rows.curve is None:
             plan, law = rows.law.plan, f"with the law {rows.law.name!r}: {rows.law.summary}"
             what = plan if isinstance(plan, str) and plan else law
             of_plan[what] = of_plan.get(what, 0) + len(rows.rows)

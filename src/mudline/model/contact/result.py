@@ -291,7 +291,6 @@ def blank_result(
     evaluated = present[tables.line.first] & present[tables.line.second]
     on_elements, on_nodes = (len(positions), len(evaluated)), (len(positions), len(present))
     slides = tables.friction is not None or tables.lateral is not None
-    cuts = tables.cuts and any(rows.curve >= 0 for rows in tables.normal)
     return ContactResult(
         depth=np.empty(on_elements),
         ratio=np.empty(on_elements),
@@ -299,7 +298,7 @@ def blank_result(
         force=np.empty(on_elements),
         slope=np.empty(on_elements),
         stiffness=np.empty(on_elements),
-        cut=np.zeros(on_elements, np.bool_) if cuts else _repeated(np.zeros((), np.bool_), on_elements),
+        cut=np.zeros(on_elements, np.bool_) if tables.cuts else _repeated(np.zeros((), np.bool_), on_elements),
         gap=np.empty(on_nodes),
         normal=np.empty((*on_nodes, 3)) if same_normal is None else _repeated(same_normal, on_nodes),
         reaction=np.empty((*on_nodes, 3)),
