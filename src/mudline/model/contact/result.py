@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mudline.basics.arguments import ArgumentRangeError, expect, several
 from mudline.basics.installed import install_hint
 from mudline.basics.short_repr import counted, outline, short_repr
-from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray, StateArray
+from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray, StateArray, summed
 from mudline.model.contact.input import ContactInput, ElementError, PositionError
 from mudline.model.contact.tables import LawTables
 
@@ -370,11 +370,9 @@ def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, table
         _refuse_force(part, int(np.argmax(unbounded)), step, tables)
     for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
         _refuse_element(np.isinf(values), given.element_ids, step, f"its {what} overflows")
-    loads = np.zeros(len(given.node_ids))
     with np.errstate(all="ignore"):
         load = np.where(known, part.force * tables.half, 0.0)
-        for end in (tables.line.first, tables.line.second):
-            np.add.at(loads, end, load)
+        loads = summed(load, given.element_nodes, len(given.node_ids))
     at_node = ~(np.isfinite(loads[tables.line.first]) & np.isfinite(loads[tables.line.second]))
     _refuse_element(at_node & known, given.element_ids, step, "the reaction at its nodes overflows")
     wrong = ~np.isfinite(part.reaction).all(axis=-1) & part.present

@@ -23,7 +23,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from mudline.basics.short_repr import UnknownNameError, outline, short_repr
-from mudline.model.contact.arrays import FloatArray, IndexArray
+from mudline.model.contact.arrays import FloatArray, IndexArray, summed
 from mudline.model.contact.laws import Law, Reached, known_laws
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.tables import LawTables, NormalRows, steepest_anywhere
@@ -143,13 +143,10 @@ def _reached(tables: LawTables, result: ContactResult | None, speed: FloatArray 
 
 def _static_normal_force(tables: LawTables) -> FloatArray:
     """Return the normal force (n,) of each node under the submerged weight; NaN where that is unknown or not > 0."""
-    weight, total = tables.given.weight, np.zeros(len(tables.given.node_ids))
+    weight, nodes = tables.given.weight, len(tables.given.node_ids)
     if weight is None:
-        return np.full(len(total), np.nan)
-    carried = np.where(weight > 0.0, weight, np.nan) * tables.half
-    for end in tables.given.element_nodes.T:
-        np.add.at(total, end, carried)
-    return total
+        return np.full(nodes, np.nan)
+    return summed(np.where(weight > 0.0, weight, np.nan) * tables.half, tables.given.element_nodes, nodes)
 
 
 _THREE_DIGITS = Context(prec=3, rounding=ROUND_DOWN)

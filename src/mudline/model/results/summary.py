@@ -13,12 +13,12 @@ from mudline.basics.quantities import finite
 from mudline.language.deck.loading import coverage_of, extent
 from mudline.language.deck.model import Opaque
 from mudline.language.keywords.model import Block
-from mudline.model.contact.arrays import BoolArray
+from mudline.model.contact.arrays import BoolArray, summed
 from mudline.model.contact.input import LawAssignment, LawKind
 from mudline.model.contact.laws.linear import penetration_under, smoothed_reaction
 from mudline.model.scene.assignments import element_smoothing, nodal_springs
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices, summed
+from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.resolved import LawArrays
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
 from mudline.model.scene.sheet import sheet_of
