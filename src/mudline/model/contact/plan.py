@@ -14,6 +14,7 @@ from mudline.basics.arguments import expect, expect_word
 from mudline.basics.short_repr import UnknownNameError, counted, outline
 from mudline.model.contact.input import ContactInput, LawKind
 from mudline.model.contact.laws import NormalLaw, known_laws
+from mudline.model.contact.seabed import FlatSeabed
 from mudline.model.contact.tables import LawTables
 
 
@@ -112,10 +113,8 @@ def _with_reason(stage: Stage, left_out: str | None) -> Stage:
 
 
 def _seabed(given: ContactInput) -> str:
-    if given.seabed is None:
-        return "one flat seabed at X = 0"
-    held = "" if given.seabed.faceted else "; tangents hold the normal"
-    return given.seabed.describe() + held
+    seabed = given.seabed or FlatSeabed()
+    return seabed.describe() + ("" if seabed.faceted else "; tangents hold the normal")
 
 
 def _normal_law(given: ContactInput, tables: LawTables, choice: BackendChoice) -> str:
