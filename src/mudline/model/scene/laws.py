@@ -158,13 +158,11 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
             laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
         if not properties.sets and is_partly_unknown(properties.sets):
             laws.gaps.append(where)
-        for index, entry in enumerate(properties.sets):
-            place = where.inside("sets", index)
+        for place, entry, name, named_set in sets.entries([(where, properties)]):
             values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
             if UNKNOWN in values and None not in values:  # a line that could not be used may be another SET=
                 laws.gaps.append(place)
-            name = "ALL" if entry.set_name is None else known_name(entry.set_name)
-            holder = (None if name is None else sets.find(name)) or _unknown(name)
+            holder = named_set or _unknown(name)
             stiffness, written = entry.stiffness, place.inside("stiffness")
             if isinstance(stiffness, str):
                 curve = curves.get(folded(stiffness), NOTHING)

@@ -10,14 +10,14 @@ import numpy as np
 
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.values import known_name
+from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask, picked
 from mudline.model.scene.sections import Section, format_of
+from mudline.model.scene.sets import NamedSet, later_wins
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import Masses, PointMass
-    from mudline.language.keywords.library.loads import InternalFluid
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -54,13 +54,11 @@ def contents(scene: ResolvedDeck) -> list[PipeContents]:
         if section.name != "LOAD CASE":
             continue
         density = density.copy()
-        for where, block in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE"):
-            for entry in cast("InternalFluid", block).sets if where.section == index else ():
-                name = known_name(entry.set_name) if entry.set_name else "ALL"
-                holder = None if name is None else scene.set_table.find(name)
-                if holder is not None:
-                    above = middle[holder.elements] > number(entry, "level", math.inf)
-                    density[holder.elements] = np.where(above, 0.0, number(entry, "density", 0.0))
+        fluids = (each for each in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE") if each[0].section == index)
+        for _, entry, _, holder in scene.set_table.entries(fluids):
+            if holder is not None:
+                above = middle[holder.elements] > number(entry, "level", math.inf)
+                density[holder.elements] = np.where(above, 0.0, number(entry, "density", 0.0))
         with np.errstate(over="ignore"):
             filled.append(PipeContents(len(filled) + 1, Where(index), density, density * area))
     return filled
@@ -180,10 +178,14 @@ def _modulus(scene: ResolvedDeck, section: Section, given: float, *settings: str
     if not math.isnan(given) or name is None:
         return given
     keyword = STIFFNESS_CURVES.get(settings[0], BENDING_CURVES)
-    for each in scene.other_curves:
-        if each.keyword == keyword and folded(each.name) == folded(str(name)):
-            return float(each.curve.slopes[each.curve.segment(0.0)]) if each.usable and each.curve else math.nan
-    return math.nan
+    curves = (each for each in scene.other_curves if each.keyword == keyword and folded(each.name) == folded(name))
+    points = next((each.points for each in curves), None)
+    if points is None or len(points) < FEWEST_POINTS:
+        return math.nan
+    strains, loads = points[np.argsort(points[:, 0], kind="stable")].T  # also of a curve with two loads at a strain
+    at = int(np.clip(np.searchsorted(strains, 0.0, side="right"), 1, len(strains) - 1))
+    rise, run = float(loads[at] - loads[at - 1]), float(strains[at] - strains[at - 1])
+    return rise / run if run > 0.0 else math.nan
 
 
 _DRAG, _INERTIA, _ADDED_MASS = 1.0, 2.0, 1.0
@@ -251,18 +253,16 @@ def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask, Floa
 
     The masks are the elements with coefficients in the deck, and those whose inertia uses the buoyancy diameter.
     """
-    count = len(scene.element_ids)
-    added, drag = np.full(count, _ADDED_MASS), np.full(count, _DRAG)
-    from_deck, with_buoyancy = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-    along = np.zeros((count, 2))
+    holders: list[NamedSet | None] = []
+    values: list[tuple[float, ...]] = []
     for where, block in scene.deck.blocks("HYDRODYNAMIC SETS"):
         for _, entry, _, holder in scene.set_table.entries([(where, block)]):
             if holder is None or (row := entry.constant) is None:
                 continue
-            rows = holder.elements
-            inertia = number(row, "normal_inertia", _INERTIA)
-            added[rows] = number(row, "normal_added_mass", max(inertia - 1.0, 0.0))
-            drag[rows] = number(row, "normal_drag", _DRAG)
-            along[rows] = [number(row, f"tangential_{name}", 0.0) for name in ("drag", "added_mass")]
-            from_deck[rows], with_buoyancy[rows] = True, block.diameter == "BUOYANCY"
-    return added, drag, from_deck, with_buoyancy, along
+            holders.append(holder)
+            added = number(row, "normal_added_mass", max(number(row, "normal_inertia", _INERTIA) - 1.0, 0.0))
+            along = (number(row, f"tangential_{name}", 0.0) for name in ("drag", "added_mass"))
+            values.append((added, number(row, "normal_drag", _DRAG), block.diameter == "BUOYANCY", *along))
+    of_element = later_wins(holders, len(scene.element_ids))
+    table = np.array([*values, (_ADDED_MASS, _DRAG, 0.0, 0.0, 0.0)])[of_element]
+    return table[:, 0], table[:, 1], of_element >= 0, table[:, 2] > 0.0, table[:, 3:]
