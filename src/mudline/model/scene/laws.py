@@ -83,11 +83,6 @@ class LawTable:
         """True if some law belongs to elements that the deck does not show: any element may have it."""
         return any(set_law.set_.open for set_law in self.set_laws)
 
-    def followers(self, curve: int) -> Indices:
-        """Return indices of the elements on a curve."""
-        on_curve = np.array([*(set_law.curve == curve for set_law in self.set_laws), False])
-        return np.flatnonzero(on_curve[self.of_element])
-
 
 def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: list[SceneCurve], count: int) -> LawTable:
     """Return the law of each of `count` elements.

@@ -22,7 +22,6 @@ from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.syntax.fields import trimmed
-from mudline.model.results.summary import followers
 from mudline.model.scene.curves import ENDS, SceneCurve
 from mudline.model.scene.deck_values import find_file
 from mudline.model.scene.model import Scene
@@ -212,14 +211,13 @@ def segment_help(analysis: Analysis, value_site: Site) -> str:
     if entry is None or entry.curve is None or not at.size:
         return ""
     ratio = float(entry.points[int(at[0]), 0])
-    ratios, forces = entry.curve.ratios, entry.curve.forces
+    ratios = entry.curve.ratios
     number = int(np.searchsorted(ratios, ratio))
     lines = [f"point {number + 1} of {len(ratios)} of {_title(entry)}, by ratio"]
-    sizes = scene.diameter[followers(scene, index)]
+    sizes = scene.diameter[scene.followers(index)]
     for first, words in ((number - 1, "up to here"), (number, "from here")):
         if 0 <= first < len(ratios) - 1:
-            slope = float((forces[first + 1] - forces[first]) / (ratios[first + 1] - ratios[first]))
-            lines.append(f"{words}: {_slope_text(scene, slope, sizes)}")
+            lines.append(f"{words}: {_slope_text(scene, float(entry.curve.slopes[first]), sizes)}")
     return "\n\n".join(lines)
 
 
@@ -259,7 +257,7 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
     unit = unit_names(scene.units).line_force
     points = f"{counted(len(ratios), 'point')}, ratio {ratios[0]:g} to {ratios[-1]:g}"
     force = _with_unit(f"force {forces[0]:g} to", float(forces[-1]), unit)
-    followed = counted(int(followers(scene, index).sum()), "element")
+    followed = counted(len(scene.followers(index)), "element")
     return f"{_title(entry)}: {points}, {force}\n\nfollowed by {followed}"
 
 
