@@ -15,7 +15,6 @@ from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.plots import Plot, plot_option, write_plot
 from mudline.cli.streams import View, emit, emit_json, notify, refusing
 from mudline.model.results.curve_rows import curve_rows, diameters_on, used_curves
-from mudline.model.results.summary import followers
 from mudline.model.scene.curves import ENDS, OF_CURRENT, OF_SEABED
 from mudline.model.scene.model import Scene, resolve
 
@@ -121,7 +120,7 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
             sizes = diameters_on(scene, index)
             drawn = sizes if view.verbose or len(sizes) <= _SHOWN_DIAMETERS else [sizes[0], sizes[-1]]
             note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
-            used = "" if followers(scene, index).any() else ", diameters of *GEOMETRIC SETS"
+            used = "" if len(scene.followers(index)) else ", diameters of *GEOMETRIC SETS"
             used = used if sizes else ", not used by an element with a diameter"
             title = f"{'set' if entry.embedment else 'curve'} {row['name']}: {len(row['points'])} points{used}"
         units = [unit if names.length and unit != "-" else "" for unit in row["units"]]

@@ -32,6 +32,12 @@ def embedment(*names: str) -> str:
     return "*EMBEDMENT\n" + "".join(f" SET={name}\n 0, 0\n 1, {index}\n" for index, name in enumerate(names, 1))
 
 
+def test_elements_whose_law_an_extension_replaced_do_not_follow_their_curve() -> None:
+    bed = NEW + " SET=ALL\n STIFFNESS=Clay\n"
+    assert scene_of(bed).followers(0).tolist() == list(range(10))
+    assert scene_of(bed + "*SEABED CONTACT\n SET=a\n NODAL STIFFNESS=7\n").followers(0).tolist() == [5, 6, 7, 8, 9]
+
+
 # ------------------------------------------------------------------------------------------------------- new family
 
 

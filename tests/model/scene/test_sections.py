@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from mudline.model.scene.sections import stiffnesses
+from mudline.model.scene.weights import stiffnesses
 from tests.helpers.builders.decks import PIPE
 from tests.helpers.builders.scenes import all_reported, reported, scene_of
 
@@ -42,7 +42,7 @@ def test_the_elements_of_a_joint_have_the_diameters_at_their_middles() -> None:
     scene = scene_of(SETS + "*OCEAN\n 9.0, 1025.0, 9.81\n" + JOINT + "\n")
     assert scene.diameter[3:8].tolist() == pytest.approx([0.31, 0.33, 0.35, 0.37, 0.39])
     assert scene.mass_per_length[3] == pytest.approx(7850.0 * math.pi / 4 * (0.31**2 - 0.2**2))
-    stiffness = stiffnesses(scene.deck, scene.section_table.sections[0])
+    stiffness = stiffnesses(scene, scene.section_table.sections[0])
     assert stiffness.bending == pytest.approx(2.0e11 * math.pi / 64 * (0.31**4 - 0.2**4))
     assert stiffness.torsion == pytest.approx(8.0e10 * math.pi / 32 * (0.31**4 - 0.2**4))
     buoyant = scene_of(SETS + "*OCEAN\n 9.0, 1025.0, 9.81\n" + JOINT + ", 0.3, 0.5, 0.6\n")

@@ -215,7 +215,7 @@ def _distinct(curve: SceneCurve) -> Indices:
 
 def _needed(scene: Scene, curve: int, slope: float) -> str:
     """Return |slope| / D in words, for the smallest diameter on the curve."""
-    diameters = scene.diameter[scene.laws.followers(curve)]
+    diameters = scene.diameter[scene.followers(curve)]
     known = diameters[~np.isnan(diameters)]
     if not known.size:
         return f"|slope| / D = {-slope:.6g} / D"

@@ -266,7 +266,7 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     for index, entry in enumerate(scene.laws.curves):
         if entry.curve is None or not entry.whole or is_upside_down(entry) or deepest_of_all <= entry.curve.ratios[-1]:
             continue
-        elements = scene.laws.followers(index)
+        elements = scene.followers(index)
         last = float(entry.curve.ratios[-1])
         beyond = elements[ratios[elements] > last]
         if beyond.size:

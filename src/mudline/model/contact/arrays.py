@@ -91,6 +91,14 @@ def as_range(indices: IndexArray) -> Picked:
     return indices
 
 
+def summed(values: FloatArray, element_nodes: IndexArray, nodes: int) -> FloatArray:
+    """Return the sum of the values (m,) of each node's elements."""
+    total = np.zeros(nodes)
+    for end in element_nodes.T:
+        np.add.at(total, end, values)
+    return total
+
+
 def as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> RealArray | None:
     """Return velocities as (steps, nodes, 3), neither copied nor converted; None stays None.
 

@@ -147,7 +147,7 @@ class ElementLaws:
                 target[...] = 0.0
         for rows, at, diameter in self._normal:
             own, on = self._reaction(rows, taken(depth, at), diameter, paths), taken(touches, at)
-            if self._tables.cuts and rows.curve >= 0:
+            if self._tables.cuts and rows.curve is not None:
                 pulls = on & (own[0] < 0.0)
                 part.cut[:, at], on = pulls, on & ~pulls
             np.copyto(own, 0.0, where=~on)
@@ -157,17 +157,12 @@ class ElementLaws:
     def _reaction(self, rows: NormalRows, z: FloatArray, diameter: FloatArray, paths: FloatArray | None) -> FloatArray:
         """Return force, slope and stiffness (3, steps, k) of the elements with one normal law."""
         force, slope, stiffness = values = np.empty((3, *z.shape))
-        if rows.curve >= 0:
-            curve, ratio = self._tables.given.curves[rows.curve], z / diameter
-            curve.fill(ratio.reshape(-1), force.reshape(-1), slope.reshape(-1))
-            np.divide(slope, diameter, out=stiffness)
-            return values
         if paths is not None and isinstance(rows.law, PathLaw):
             memory = paths[rows.path : rows.path + len(rows.rows)]
             rows.law.follow(z, memory, diameter, rows.columns, (force, stiffness))
+            np.multiply(stiffness, diameter, out=slope)
         else:
-            force[...], stiffness[...] = rows.law.reaction(z, diameter, *rows.columns)
-        np.multiply(stiffness, diameter, out=slope)
+            rows.write_reaction(z, diameter, values)
         return values
 
     def _apply_unloading(
@@ -213,13 +208,7 @@ class ElementLaws:
         """Return the steepest slopes of the normal laws between the mudline and penetrations (steps, m)."""
         slopes = np.zeros(z.shape)
         for rows, at, diameter in self._normal:
-            here = taken(z, at)
-            if rows.curve >= 0:
-                curve = self._tables.given.curves[rows.curve]
-                steepest = law_module("linear").steepest_slope(curve, here / diameter) / diameter
-            else:
-                steepest = rows.law.steepest(here, diameter, *rows.columns)
-            slopes[:, at] = steepest
+            slopes[:, at] = rows.steepest(taken(z, at), diameter)
         return slopes
 
     def _apply_springs(self, some: _Subset, depth: FloatArray, values: Values) -> None:

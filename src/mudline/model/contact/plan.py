@@ -14,6 +14,7 @@ from mudline.basics.arguments import expect, expect_word
 from mudline.basics.short_repr import UnknownNameError, counted, outline
 from mudline.model.contact.input import ContactInput, LawKind
 from mudline.model.contact.laws import NormalLaw, known_laws
+from mudline.model.contact.seabed import FlatSeabed
 from mudline.model.contact.tables import LawTables
 
 
@@ -112,22 +113,20 @@ def _with_reason(stage: Stage, left_out: str | None) -> Stage:
 
 
 def _seabed(given: ContactInput) -> str:
-    if given.seabed is None:
-        return "one flat seabed at X = 0"
-    held = "" if given.seabed.faceted else "; tangents hold the normal"
-    return given.seabed.describe() + held
+    seabed = given.seabed or FlatSeabed()
+    return seabed.describe() + ("" if seabed.faceted else "; tangents hold the normal")
 
 
 def _normal_law(given: ContactInput, tables: LawTables, choice: BackendChoice) -> str:
     parts = []
-    curves = [rows for rows in tables.normal if rows.curve >= 0]
+    curves = [rows for rows in tables.normal if rows.curve is not None]
     if curves:
         cut = ", pulling forces cut to 0" if given.tension == "cut" else ""
         elements = counted(sum(len(rows.rows) for rows in curves), "element")
         parts.append(f"{elements} on {counted(len(curves), 'force-embedment curve')}{cut}")
     of_plan: dict[str, int] = {}
     for rows in tables.normal:
-        if rows.curve < 0:
+        if rows.curve is None:
             plan, law = rows.law.plan, f"with the law {rows.law.name!r}: {rows.law.summary}"
             what = plan if isinstance(plan, str) and plan else law
             of_plan[what] = of_plan.get(what, 0) + len(rows.rows)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mudline.basics.arguments import ArgumentRangeError, expect, several
 from mudline.basics.installed import install_hint
 from mudline.basics.short_repr import counted, outline, short_repr
-from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray, StateArray
+from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray, StateArray, summed
 from mudline.model.contact.input import ContactInput, ElementError, PositionError
 from mudline.model.contact.tables import LawTables
 
@@ -291,7 +291,6 @@ def blank_result(
     evaluated = present[tables.line.first] & present[tables.line.second]
     on_elements, on_nodes = (len(positions), len(evaluated)), (len(positions), len(present))
     slides = tables.friction is not None or tables.lateral is not None
-    cuts = tables.cuts and any(rows.curve >= 0 for rows in tables.normal)
     return ContactResult(
         depth=np.empty(on_elements),
         ratio=np.empty(on_elements),
@@ -299,7 +298,7 @@ def blank_result(
         force=np.empty(on_elements),
         slope=np.empty(on_elements),
         stiffness=np.empty(on_elements),
-        cut=np.zeros(on_elements, np.bool_) if cuts else _repeated(np.zeros((), np.bool_), on_elements),
+        cut=np.zeros(on_elements, np.bool_) if tables.cuts else _repeated(np.zeros((), np.bool_), on_elements),
         gap=np.empty(on_nodes),
         normal=np.empty((*on_nodes, 3)) if same_normal is None else _repeated(same_normal, on_nodes),
         reaction=np.empty((*on_nodes, 3)),
@@ -371,11 +370,9 @@ def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, table
         _refuse_force(part, int(np.argmax(unbounded)), step, tables)
     for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
         _refuse_element(np.isinf(values), given.element_ids, step, f"its {what} overflows")
-    loads = np.zeros(len(given.node_ids))
     with np.errstate(all="ignore"):
         load = np.where(known, part.force * tables.half, 0.0)
-        for end in (tables.line.first, tables.line.second):
-            np.add.at(loads, end, load)
+        loads = summed(load, given.element_nodes, len(given.node_ids))
     at_node = ~(np.isfinite(loads[tables.line.first]) & np.isfinite(loads[tables.line.second]))
     _refuse_element(at_node & known, given.element_ids, step, "the reaction at its nodes overflows")
     wrong = ~np.isfinite(part.reaction).all(axis=-1) & part.present

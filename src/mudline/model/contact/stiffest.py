@@ -23,7 +23,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from mudline.basics.short_repr import UnknownNameError, outline, short_repr
-from mudline.model.contact.arrays import FloatArray, IndexArray
+from mudline.model.contact.arrays import FloatArray, IndexArray, summed
 from mudline.model.contact.laws import Law, Reached, known_laws
 from mudline.model.contact.result import ContactResult
 from mudline.model.contact.tables import LawTables, NormalRows, steepest_anywhere
@@ -80,7 +80,7 @@ def stiffest(tables: LawTables, result: ContactResult | None, speed: FloatArray 
     laws = []
     with np.errstate(all="ignore"):
         normal = [*tables.normal, *tables.nodal]
-        for name in dict.fromkeys(rows.law.name for rows in sorted(normal, key=lambda rows: rows.curve)):
+        for name in dict.fromkeys(rows.law.name for rows in sorted(normal, key=lambda rows: rows.curve is not None)):
             same = [rows for rows in normal if rows.law.name == name]
             slopes = np.concatenate([_slope(tables, rows, result) for rows in same])
             laws.append(_of_law(tables, same[0].law, np.concatenate([rows.rows for rows in same]), slopes))
@@ -122,13 +122,12 @@ def _slope(tables: LawTables, rows: NormalRows, result: ContactResult | None) ->
         touches = z > rows.law.onset(*rows.columns)
     else:
         z, at, touches = result.depth[..., rows.rows], tables.diameter[rows.rows], result.contact[..., rows.rows]
-    if rows.curve >= 0:
-        slope = tables.given.curves[rows.curve].evaluate(np.nan_to_num(z / at))[1] / at
-    elif rows.path >= 0:  # the stiffness of a reversal there, after any path
-        slope = rows.law.steepest(z, at, *rows.columns)
+    values = np.empty((3, *z.shape))
+    if rows.path >= 0:  # the stiffness of a reversal there, after any path
+        values[2] = rows.steepest(z, at)
     else:
-        slope = rows.law.reaction(z, at, *rows.columns)[1]
-    return _largest(np.where(touches, slope, 0.0))
+        rows.write_reaction(z, at, values)
+    return _largest(np.where(touches, values[2], 0.0))
 
 
 def _reached(tables: LawTables, result: ContactResult | None, speed: FloatArray | None) -> Reached:
@@ -144,13 +143,10 @@ def _reached(tables: LawTables, result: ContactResult | None, speed: FloatArray 
 
 def _static_normal_force(tables: LawTables) -> FloatArray:
     """Return the normal force (n,) of each node under the submerged weight; NaN where that is unknown or not > 0."""
-    weight, total = tables.given.weight, np.zeros(len(tables.given.node_ids))
+    weight, nodes = tables.given.weight, len(tables.given.node_ids)
     if weight is None:
-        return np.full(len(total), np.nan)
-    carried = np.where(weight > 0.0, weight, np.nan) * tables.half
-    for end in tables.given.element_nodes.T:
-        np.add.at(total, end, carried)
-    return total
+        return np.full(nodes, np.nan)
+    return summed(np.where(weight > 0.0, weight, np.nan) * tables.half, tables.given.element_nodes, nodes)
 
 
 _THREE_DIGITS = Context(prec=3, rounding=ROUND_DOWN)

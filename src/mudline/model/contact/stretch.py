@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.model.contact.arrays import FloatArray, IndexArray
+from mudline.model.contact.arrays import FloatArray, IndexArray, summed
 from mudline.model.contact.input import ContactInput, ElementError, LawAssignment
 from mudline.model.contact.model import ContactModel
 
@@ -104,9 +104,7 @@ def _apart(given: ContactInput, elements: IndexArray) -> ContactInput:
     """Return the normal laws of elements with nodes of their own, each with its share of the springs at the nodes."""
     count = len(elements)
     ends, length = given.element_nodes[elements], given.length[elements]
-    carried = np.zeros(len(given.node_ids))
-    for end in given.element_nodes.T:
-        np.add.at(carried, end, given.length)
+    carried = summed(given.length, given.element_nodes, len(given.node_ids))
     place = np.full(len(given.element_ids), -1)
     place[elements] = np.arange(count)
     laws = []

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mudline.basics.short_repr import outline
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import AssignedLaw, ContactInput
-from mudline.model.contact.laws import NormalLaw, PathLaw, law_module
+from mudline.model.contact.laws import NormalLaw, PathLaw, Value, law_module
 from mudline.model.contact.line import Incidence
 from mudline.model.contact.seabed import heading
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from mudline.model.contact.laws.suction import SuctionHistory
     from mudline.model.contact.laws.unloading import UnloadingHistory
     from mudline.model.contact.trenches import LaidCentreline
+    from mudline.model.curves import ForceCurve
 
 
 _Part = Any
@@ -121,15 +122,31 @@ class NormalRows(NamedTuple):
         law: the law.
         rows: (k,) indices of elements or nodes, ascending.
         columns: its parameters, each (k,).
-        curve: index of the curve of a law with curves, else -1.
+        curve: the curve of a law with curves, else None.
         path: first of its rows in the memory of elements on a path, -1 for a law without.
     """
 
     law: NormalLaw
     rows: IndexArray
     columns: tuple[FloatArray, ...]
-    curve: int = -1
+    curve: ForceCurve | None = None
     path: int = -1
+
+    def write_reaction(self, z: FloatArray, diameter: FloatArray | float, out: FloatArray) -> None:
+        """Write force, slope and stiffness (3, steps, k), those of the first loading, at penetrations (steps, k)."""
+        force, slope, stiffness = out
+        if self.curve is None:
+            force[...], stiffness[...] = self.law.reaction(z, diameter, *self.columns)
+            np.multiply(stiffness, diameter, out=slope)
+        else:
+            self.curve.fill((z / diameter).reshape(-1), force.reshape(-1), slope.reshape(-1))
+            np.divide(slope, diameter, out=stiffness)
+
+    def steepest(self, z: FloatArray, diameter: FloatArray | float) -> Value:
+        """Return the largest stiffness between the onset and penetrations (..., k), of this shape or (k,)."""
+        if self.curve is None:
+            return self.law.steepest(z, diameter, *self.columns)
+        return law_module("linear").steepest_slope(self.curve, z / diameter) / diameter
 
 
 class LawTables:
@@ -166,8 +183,8 @@ class LawTables:
         self.diameter = given.diameter
         onset = given.onset()
         self.onset: FloatArray | None = onset if onset.any() else None
-        self.normal, self._paths = _with_paths([rows for law in given.normal_laws for rows in _normal_rows(law)])
-        self.nodal = [rows for law in given.nodal_laws for rows in _normal_rows(law)]
+        self.normal, self._paths = _with_paths([rows for law in given.normal_laws for rows in _normal_rows(law, given)])
+        self.nodal = [rows for law in given.nodal_laws for rows in _normal_rows(law, given)]
         self.unloading, self.springs, self.suction = map(given.assigned.get, ("unloading", "suction spring", "suction"))
         self.damping = _coefficients(given, "damping", len(self.half))
         self.nodal_damping = _coefficients(given, "nodal damping", len(given.node_ids))
@@ -192,7 +209,7 @@ class LawTables:
             self.level = trench_rows(given, np.zeros(len(given.node_ids)), (LEVEL,))
         self._laid: tuple[FloatArray, LaidCentreline] | None = None
         self.pulling = _pulling(given)
-        self.cuts = given.tension == "cut"
+        self.cuts = given.tension == "cut" and any(rows.curve for rows in self.normal)
         self.rigid: BoolArray | None = None
         if "rigid" in given.assigned:
             self.rigid = np.zeros(len(given.node_ids), np.bool_)
@@ -233,7 +250,7 @@ class LawTables:
         return ContactState(paths=None if self._paths is None else self._paths.copy(), **histories)
 
 
-def _normal_rows(assigned: AssignedLaw) -> list[NormalRows]:
+def _normal_rows(assigned: AssignedLaw, given: ContactInput) -> list[NormalRows]:
     """Return the rows of a normal law; a law with curves has one entry for each curve."""
     law = assigned.law
     if not isinstance(law, NormalLaw):
@@ -242,7 +259,8 @@ def _normal_rows(assigned: AssignedLaw) -> list[NormalRows]:
         return [NormalRows(law, assigned.rows, assigned.columns)]
     index = assigned.columns[-1].astype(np.intp)
     return [
-        NormalRows(law, assigned.rows[index == each], (), each) for each in np.flatnonzero(np.bincount(index)).tolist()
+        NormalRows(law, assigned.rows[index == each], (), given.curves[each])
+        for each in np.flatnonzero(np.bincount(index)).tolist()
     ]
 
 
@@ -324,10 +342,5 @@ def _pulling(given: ContactInput) -> IndexArray | None:
 def steepest_anywhere(tables: LawTables, rows: NormalRows) -> FloatArray:
     """Return the largest stiffness (k,) that a normal law can reach on its elements or nodes."""
     with np.errstate(all="ignore"):  # an overflow is refused at the step where it occurs
-        if rows.curve >= 0:
-            steepest: FloatArray = law_module("linear").steepest_slopes(tables.given.curves[rows.curve])
-            slopes: FloatArray = steepest.max() / tables.diameter[rows.rows]
-            return slopes
         diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
-        stiffness = rows.law.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
-    return np.broadcast_to(stiffness, len(rows.rows)).copy()
+        return np.broadcast_to(rows.steepest(np.full(len(rows.rows), np.inf), diameter), len(rows.rows)).copy()

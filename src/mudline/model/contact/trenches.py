@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, summed
 from mudline.model.contact.input import AssignedLaw, ContactInput, ElementError
 from mudline.model.contact.laws.friction import ExtraLimit
 from mudline.model.contact.laws.trench import (
@@ -127,9 +127,7 @@ def _wall(given: ContactInput, law: AssignedLaw, nodes: IndexArray, friction: Fl
 
 def _lengths(given: ContactInput) -> FloatArray:
     """Return half of the total length of the elements at each node; 1 where that is 0."""
-    total = np.zeros(len(given.node_ids))
-    for end in given.element_nodes.T:
-        np.add.at(total, end, 0.5 * given.length)
+    total = summed(0.5 * given.length, given.element_nodes, len(given.node_ids))
     return np.where(total > 0.0, total, 1.0)
 
 

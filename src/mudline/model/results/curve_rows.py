@@ -10,7 +10,7 @@ from mudline.basics.quantities import finite
 from mudline.language.deck.parameters import folded
 from mudline.language.keywords.format import unit_text
 from mudline.model.curves import ForceCurve
-from mudline.model.results.summary import CURVE_SIDES, followers
+from mudline.model.results.summary import CURVE_SIDES
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.model import Scene
 
@@ -40,9 +40,9 @@ def diameters_on(scene: Scene, curve: int) -> list[float]:
     If the deck does not list its elements, as with `*LINES`, they are the diameters of sections with the names of the
     sets that follow the curve, or of all sections if no name matches.
     """
-    follow = followers(scene, curve)
+    follow = scene.followers(curve)
     diameters = scene.diameter[follow]
-    if not follow.any() and scene.context.external_definers:
+    if not len(follow) and scene.context.external_definers:
         sets = {folded(grant.set_.name) for grant in scene.laws.set_laws if grant.curve == curve}
         sections = scene.section_table.sections if sets else ()
         of_sets = [section.diameter for section in sections if folded(section.name) in sets]

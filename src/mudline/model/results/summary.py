@@ -13,12 +13,12 @@ from mudline.basics.quantities import finite
 from mudline.language.deck.loading import coverage_of, extent
 from mudline.language.deck.model import Opaque
 from mudline.language.keywords.model import Block
-from mudline.model.contact.arrays import BoolArray
+from mudline.model.contact.arrays import summed
 from mudline.model.contact.input import LawAssignment, LawKind
 from mudline.model.contact.laws.linear import penetration_under, smoothed_reaction
 from mudline.model.scene.assignments import element_smoothing, nodal_springs
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import Floats, Indices, summed
+from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.resolved import LawArrays
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
 from mudline.model.scene.sheet import sheet_of
@@ -90,18 +90,11 @@ def _curves(scene: Scene) -> list[dict[str, Any]]:
                 "points": len(entry.points),
                 "ratios": None if curve is None else [float(curve.ratios[0]), float(curve.ratios[-1])],
                 "forces": None if curve is None else [float(curve.forces.min()), float(curve.forces.max())],
-                "elements": int(followers(scene, index).sum()),
+                "elements": len(scene.followers(index)),
                 "open": any(grant.curve == index and grant.set_.open for grant in scene.laws.set_laws),
             }
         )
     return rows
-
-
-def followers(scene: Scene, curve: int) -> BoolArray:
-    """Return the elements (m,) that follow a curve, without those that have a law of an extension keyword instead."""
-    granted = np.array([grant.curve == curve for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
-    following: BoolArray = granted & (scene.law == LawKind.CURVE)
-    return following
 
 
 def _diameters(scene: Scene) -> list[dict[str, Any]]:

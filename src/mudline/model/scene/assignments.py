@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from mudline.model.contact.arrays import summed
 from mudline.model.contact.input import LawAssignment, LawKind
 from mudline.model.scene.deck_values import FORCE_UNIT, LARGEST_MOBILISATION, LENGTH_UNIT, number
 from mudline.model.scene.laws import Extension
-from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked, summed
+from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:

@@ -83,11 +83,6 @@ class LawTable:
         """True if some law belongs to elements that the deck does not show: any element may have it."""
         return any(set_law.set_.open for set_law in self.set_laws)
 
-    def followers(self, curve: int) -> Indices:
-        """Return indices of the elements on a curve."""
-        on_curve = np.array([*(set_law.curve == curve for set_law in self.set_laws), False])
-        return np.flatnonzero(on_curve[self.of_element])
-
 
 def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: list[SceneCurve], count: int) -> LawTable:
     """Return the law of each of `count` elements.
@@ -158,13 +153,11 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
             laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
         if not properties.sets and is_partly_unknown(properties.sets):
             laws.gaps.append(where)
-        for index, entry in enumerate(properties.sets):
-            place = where.inside("sets", index)
+        for place, entry, name, named_set in sets.entries([(where, properties)]):
             values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
             if UNKNOWN in values and None not in values:  # a line that could not be used may be another SET=
                 laws.gaps.append(place)
-            name = "ALL" if entry.set_name is None else known_name(entry.set_name)
-            holder = (None if name is None else sets.find(name)) or _unknown(name)
+            holder = named_set or _unknown(name)
             stiffness, written = entry.stiffness, place.inside("stiffness")
             if isinstance(stiffness, str):
                 curve = curves.get(folded(stiffness), NOTHING)

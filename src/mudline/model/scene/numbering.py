@@ -238,11 +238,3 @@ def at_nodes(of_element: Indices, element_nodes: Indices, nodes: int) -> Indices
     for end in element_nodes.T:
         np.maximum.at(last, end, of_element)
     return last
-
-
-def summed(values: Floats, element_nodes: Indices, nodes: int) -> Floats:
-    """Return the sum of the values (m,) of each node's elements."""
-    total = np.zeros(nodes)
-    for end in element_nodes.T:
-        np.add.at(total, end, values)
-    return total

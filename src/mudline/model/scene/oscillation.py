@@ -15,8 +15,9 @@ import numpy as np
 
 from mudline.basics.quantities import time_unit, unit_names
 from mudline.language.diagnostics import Where
+from mudline.model.contact.arrays import summed
 from mudline.model.contact.input import ContactInput
-from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, summed
+from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:

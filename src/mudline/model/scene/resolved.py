@@ -301,6 +301,11 @@ class ResolvedDeck:
             kinds = np.where(elements, np.int8(kind), kinds)
         return kinds
 
+    def followers(self, curve: int) -> Indices:
+        """Return indices of the elements that follow a curve, without those whose law an extension replaced."""
+        on_curve = np.array([*(set_law.curve == curve for set_law in self.laws.set_laws), False])
+        return np.flatnonzero(on_curve[self.laws.of_element] & (self.law == LawKind.CURVE))
+
     @cached_property
     def law_names(self) -> list[str]:
         """Law of each element: `curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none`."""

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.language.keywords.values import known_name
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
@@ -20,7 +18,6 @@ from mudline.model.scene.sets import NamedSet, Sets, later_wins
 if TYPE_CHECKING:
     from mudline.language.keywords.library.geometric_sets import GeometricSet
     from mudline.language.keywords.library.tapered_joints import TaperedJoint
-    from mudline.language.keywords.table import Table
     from mudline.model.scene.csv_file import ExternalElements
 
 
@@ -216,52 +213,3 @@ def _displaced(entry: GeometricSet) -> float:
     if math.isnan(buoyancy) and entry.flexible is None:
         buoyancy = number(entry.section, "do")
     return math.pi / 4 * buoyancy * buoyancy
-
-
-class Stiffnesses(NamedTuple):
-    """Axial, bending and torsional stiffness of a section in the deck's units; NaN where the deck gives none."""
-
-    axial: float
-    bending: float
-    torsion: float
-
-
-def stiffnesses(deck: Deck, section: Section) -> Stiffnesses:
-    """Return the stiffness of a section; for curves it is the slope at 0."""
-    row = section.entry.section
-    if format_of(section.entry) != "rigid":
-        return Stiffnesses(
-            _modulus(deck, section, number(row, "ea"), "ea_curve"),
-            _modulus(deck, section, number(row, "eiyy"), "eiyy_curve", "ei_curve"),
-            _modulus(deck, section, number(row, "gj"), "gj_curve"),
-        )
-    outer, inner = np.float64(number(row, "do")), np.float64(number(row, "di", 0.0))
-    with np.errstate(over="ignore", invalid="ignore"):  # a float would raise where a power is infinite
-        area = number(row, "area", float(math.pi / 4 * (outer**2 - inner**2)))
-        second = number(row, "second_moment", float(math.pi / 64 * (outer**4 - inner**4)))
-    young = _modulus(deck, section, number(row, "e"), "e_curve")
-    return Stiffnesses(young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second))
-
-
-STIFFNESS_CURVES = {"ea_curve": "FORCE-STRAIN", "e_curve": "STRESS/STRAIN DIRECT", "gj_curve": "TORQUE-TWIST"}
-BENDING_CURVES = "MOMENT-CURVATURE"
-"""Keyword of bending curves; STIFFNESS_CURVES has those of other stiffnesses by the setting that names them."""
-
-
-def _modulus(deck: Deck, section: Section, given: float, *curves: str) -> float:
-    """Return a stiffness: the number, else the slope at 0 of the curve that replaces it; NaN without both."""
-    if not math.isnan(given):
-        return given
-    names = [name for setting in curves if (name := getattr(section.entry, setting, None))]
-    for _, block in deck.blocks(STIFFNESS_CURVES.get(curves[0], BENDING_CURVES)):
-        for entry in block.curves:
-            if names and folded(str(entry.curve)) == folded(str(names[0])):
-                points = cast("Table", entry.points)
-                if len(points) < FEWEST_POINTS:
-                    return math.nan
-                order = np.argsort(points.column(1), kind="stable")
-                loads, strains = points.column(0)[order], points.column(1)[order]
-                at = int(np.clip(np.searchsorted(strains, 0.0, side="right"), 1, len(strains) - 1))
-                rise, run = float(loads[at] - loads[at - 1]), float(strains[at] - strains[at - 1])
-                return rise / run if run > 0.0 else math.nan
-    return math.nan

@@ -91,7 +91,8 @@ class Sets:
         for where, block in blocks:
             for listed, named in set_slots(type(block)):
                 for index, entry in enumerate(getattr(block, listed.name)):
-                    name = known_name(getattr(entry, named.name))
+                    given = getattr(entry, named.name)
+                    name = known_name(named.about.default or None if given is None else given)
                     yield where.inside(listed.json, index), entry, name, None if name is None else self.find(name)
 
     def check(self, name: str, where: Where) -> None:

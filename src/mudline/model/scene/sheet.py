@@ -13,9 +13,8 @@ from mudline.basics.display import DisplayColumn, number, text
 from mudline.basics.quantities import finite
 from mudline.language.keywords.format import unit_text
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.numbering import Floats, Indices, picked
+from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.resolved import ResolvedDeck
-from mudline.model.scene.sections import stiffnesses
 from mudline.model.scene.weights import NOT_READ, attached, contents, contents_case, left_out, pipe_of
 
 Value = str | int | float | None
@@ -121,7 +120,6 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[DisplayColumn
     table, pipe, filled = scene.section_table, pipe_of(scene), contents(scene)
     outer, inner, drag_diameter, buoyancy = map(table.values, ("do", "di", "dd", "db"))
     inner[inner == 0.0] = np.nan
-    own = [stiffnesses(scene.deck, section) for section in table.sections]
     friction = scene.resistance.column("friction")
     if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
         given = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
@@ -139,8 +137,8 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[DisplayColumn
         "contents": np.where(not_read | ~(inner > 0.0), np.nan, last),
         "filled_mass": np.where(not_read, np.nan, scene.mass_per_length + pipe.contents),
         "filled_weight": np.where(not_read, np.nan, pipe.weight),
-        "bending": picked((each.bending for each in own), table.of_element),
-        "axial": picked((each.axial for each in own), table.of_element),
+        "bending": pipe.bending,
+        "axial": pipe.axial,
         "drag": np.where(pipe.has_coefficients, pipe.drag_coefficient, np.nan),
         "added_mass": np.where(pipe.has_coefficients, pipe.added_mass_coefficient, np.nan),
         "stiffness": np.where(scene.law == LawKind.LINEAR, scene.law_arrays().linear_stiffness, np.nan),

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.values import known_name
+from mudline.language.keywords.model import FEWEST_POINTS
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.numbering import Floats, Mask, picked
-from mudline.model.scene.sections import stiffnesses
+from mudline.model.scene.sections import Section, format_of
+from mudline.model.scene.sets import NamedSet, later_wins
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.attachments import Masses, PointMass
-    from mudline.language.keywords.library.loads import InternalFluid
     from mudline.model.scene.resolved import ResolvedDeck
 
 
@@ -53,13 +54,11 @@ def contents(scene: ResolvedDeck) -> list[PipeContents]:
         if section.name != "LOAD CASE":
             continue
         density = density.copy()
-        for where, block in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE"):
-            for entry in cast("InternalFluid", block).sets if where.section == index else ():
-                name = known_name(entry.set_name) if entry.set_name else "ALL"
-                holder = None if name is None else scene.set_table.find(name)
-                if holder is not None:
-                    above = middle[holder.elements] > number(entry, "level", math.inf)
-                    density[holder.elements] = np.where(above, 0.0, number(entry, "density", 0.0))
+        fluids = (each for each in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE") if each[0].section == index)
+        for _, entry, _, holder in scene.set_table.entries(fluids):
+            if holder is not None:
+                above = middle[holder.elements] > number(entry, "level", math.inf)
+                density[holder.elements] = np.where(above, 0.0, number(entry, "density", 0.0))
         with np.errstate(over="ignore"):
             filled.append(PipeContents(len(filled) + 1, Where(index), density, density * area))
     return filled
@@ -142,6 +141,53 @@ def left_out(scene: ResolvedDeck, *, with_masses: bool = True) -> list[str]:
 
 # ----------------------------------------------------------------------------------------------------------------- pipe
 
+
+class Stiffnesses(NamedTuple):
+    """Axial, bending and torsional stiffness of a section in the deck's units; NaN where the deck gives none."""
+
+    axial: float
+    bending: float
+    torsion: float
+
+
+def stiffnesses(scene: ResolvedDeck, section: Section) -> Stiffnesses:
+    """Return the stiffness of a section; for curves it is the slope at 0."""
+    row = section.entry.section
+    if format_of(section.entry) != "rigid":
+        return Stiffnesses(
+            _modulus(scene, section, number(row, "ea"), "ea_curve"),
+            _modulus(scene, section, number(row, "eiyy"), "eiyy_curve", "ei_curve"),
+            _modulus(scene, section, number(row, "gj"), "gj_curve"),
+        )
+    outer, inner = np.float64(number(row, "do")), np.float64(number(row, "di", 0.0))
+    with np.errstate(over="ignore", invalid="ignore"):  # a float would raise where a power is infinite
+        area = number(row, "area", float(math.pi / 4 * (outer**2 - inner**2)))
+        second = number(row, "second_moment", float(math.pi / 64 * (outer**4 - inner**4)))
+    young = _modulus(scene, section, number(row, "e"), "e_curve")
+    return Stiffnesses(young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second))
+
+
+STIFFNESS_CURVES = {"ea_curve": "FORCE-STRAIN", "e_curve": "STRESS/STRAIN DIRECT", "gj_curve": "TORQUE-TWIST"}
+BENDING_CURVES = "MOMENT-CURVATURE"
+"""Keyword of bending curves; STIFFNESS_CURVES has those of other stiffnesses by the setting that names them."""
+
+
+def _modulus(scene: ResolvedDeck, section: Section, given: float, *settings: str) -> float:
+    """Return a stiffness: the number, else the slope at 0 of the curve that replaces it; NaN without both."""
+    name = next(filter(None, (getattr(section.entry, setting, None) for setting in settings)), None)
+    if not math.isnan(given) or name is None:
+        return given
+    keyword = STIFFNESS_CURVES.get(settings[0], BENDING_CURVES)
+    curves = (each for each in scene.other_curves if each.keyword == keyword and folded(each.name) == folded(name))
+    points = next((each.points for each in curves), None)
+    if points is None or len(points) < FEWEST_POINTS:
+        return math.nan
+    strains, loads = points[np.argsort(points[:, 0], kind="stable")].T  # also of a curve with two loads at a strain
+    at = int(np.clip(np.searchsorted(strains, 0.0, side="right"), 1, len(strains) - 1))
+    rise, run = float(loads[at] - loads[at - 1]), float(strains[at] - strains[at - 1])
+    return rise / run if run > 0.0 else math.nan
+
+
 _DRAG, _INERTIA, _ADDED_MASS = 1.0, 2.0, 1.0
 """Coefficients of an element without any in the deck, and defaults of fields that a line may omit."""
 
@@ -156,7 +202,7 @@ class Pipe(NamedTuple):
     drag: Cd rho D / 2, the transverse force of water at a velocity of 1.
     drag_coefficient, added_mass_coefficient: Cd and Ca.
     has_coefficients: False where these are assumed.
-    bending, axial: EI and EA, for curves their slope at 0; 0 for sections without bending stiffness.
+    bending, axial: EI and EA, for curves their slope at 0.
     axial_drag_coefficient, axial_added_mass: values along the pipe, 0 if not given.
     """
 
@@ -185,7 +231,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
     size = np.where(size > 0.0, size, table.values("do", "dd"))
     with np.errstate(all="ignore"):
         displaced = around.density * math.pi / 4.0 * size * size
-        of_sections = [stiffnesses(scene.deck, section) for section in table.sections]
+        of_sections = [stiffnesses(scene, section) for section in table.sections]
         return Pipe(
             weight=scene.submerged_weight + inside * around.gravity,
             mass=scene.mass_per_length,
@@ -195,7 +241,7 @@ def pipe_of(scene: ResolvedDeck) -> Pipe:
             drag_coefficient=drag,
             added_mass_coefficient=added,
             has_coefficients=from_deck,
-            bending=np.nan_to_num(picked((each.bending for each in of_sections), table.of_element)),
+            bending=picked((each.bending for each in of_sections), table.of_element),
             axial=picked((each.axial for each in of_sections), table.of_element),
             axial_drag_coefficient=along[:, 0],
             axial_added_mass=along[:, 1] * displaced,
@@ -207,18 +253,16 @@ def _coefficients(scene: ResolvedDeck) -> tuple[Floats, Floats, Mask, Mask, Floa
 
     The masks are the elements with coefficients in the deck, and those whose inertia uses the buoyancy diameter.
     """
-    count = len(scene.element_ids)
-    added, drag = np.full(count, _ADDED_MASS), np.full(count, _DRAG)
-    from_deck, with_buoyancy = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-    along = np.zeros((count, 2))
+    holders: list[NamedSet | None] = []
+    values: list[tuple[float, ...]] = []
     for where, block in scene.deck.blocks("HYDRODYNAMIC SETS"):
         for _, entry, _, holder in scene.set_table.entries([(where, block)]):
             if holder is None or (row := entry.constant) is None:
                 continue
-            rows = holder.elements
-            inertia = number(row, "normal_inertia", _INERTIA)
-            added[rows] = number(row, "normal_added_mass", max(inertia - 1.0, 0.0))
-            drag[rows] = number(row, "normal_drag", _DRAG)
-            along[rows] = [number(row, f"tangential_{name}", 0.0) for name in ("drag", "added_mass")]
-            from_deck[rows], with_buoyancy[rows] = True, block.diameter == "BUOYANCY"
-    return added, drag, from_deck, with_buoyancy, along
+            holders.append(holder)
+            added = number(row, "normal_added_mass", max(number(row, "normal_inertia", _INERTIA) - 1.0, 0.0))
+            along = (number(row, f"tangential_{name}", 0.0) for name in ("drag", "added_mass"))
+            values.append((added, number(row, "normal_drag", _DRAG), block.diameter == "BUOYANCY", *along))
+    of_element = later_wins(holders, len(scene.element_ids))
+    table = np.array([*values, (_ADDED_MASS, _DRAG, 0.0, 0.0, 0.0)])[of_element]
+    return table[:, 0], table[:, 1], of_element >= 0, table[:, 2] > 0.0, table[:, 3:]

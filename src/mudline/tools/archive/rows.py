@@ -234,7 +234,7 @@ def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
 def _curves(deck: Deck, scene: Scene) -> Iterator[CurveRow]:
     """Yield the curves of the seabed, then all other curves, which no element follows."""
     for place, entry in enumerate([*scene.laws.curves, *scene.other_curves]):
-        followers = len(scene.laws.followers(place)) if entry.of_seabed and len(scene.element_ids) else 0
+        followers = len(scene.followers(place)) if entry.of_seabed and len(scene.element_ids) else 0
         curve = entry.curve
         over, values = (curve.ratios, curve.forces) if curve else np.ascontiguousarray(entry.points.T)
         first, last, largest = map(float, (over[0], over[-1], values.max())) if len(over) else (None, None, None)

@@ -25,8 +25,8 @@ from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.seabed import SeabedKind, made_seabed
-from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses
-from mudline.model.scene.weights import Pipe, contents_case, pipe_of
+from mudline.model.scene.sections import Section
+from mudline.model.scene.weights import BENDING_CURVES, STIFFNESS_CURVES, Pipe, contents_case, pipe_of, stiffnesses
 from mudline.tools.exporting.report import ExportReport, Outcome
 from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
 
@@ -227,7 +227,7 @@ def _pipe(scene: Scene, units: SiFactors, section: Section, pipe: Pipe, element:
     row, length, force = section.entry.section, units.length, units.force
     outer = float(scene.diameter[element])
     inner = number(row, "di", 0.0)
-    stiffness = stiffnesses(scene.deck, section)
+    stiffness = stiffnesses(scene, section)
     mass = float(scene.mass_per_length[element])
     if not stiffness[0] > 0.0 or not mass > 0.0 or not outer > 0.0:
         what = "axial stiffness" if not stiffness[0] > 0.0 else "mass" if not mass > 0.0 else "diameter"

@@ -14,7 +14,7 @@ import numpy as np
 from mudline.basics.quantities import shown
 from mudline.language.diagnostics import Where
 from mudline.model.contact.input import LawKind
-from mudline.model.contact.laws.soil import initial, lift
+from mudline.model.contact.laws.soil import SOIL
 from mudline.model.scene.assignments import nodal_stiffness, soil_parameters
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.laws import Extension, SeabedResistance
@@ -196,16 +196,12 @@ def _stiffness(scene: ResolvedDeck, arrays: LawArrays, at: int, kind: LawKind, w
 
 def _of_soil(parameters: dict[str, float], weight: float, diameter: float) -> tuple[float, float]:
     """Return secant and tangent of a soil at the static penetration."""
-
-    def reaction(z: float) -> tuple[float, float]:
-        pairs = (initial(z, diameter, tuple(parameters.values())), lift(z, diameter, parameters["buoyancy"]))
-        return sum(float(force) for force, _ in pairs), sum(float(slope) for _, slope in pairs)
-
+    soil = tuple(parameters[each.name] for each in SOIL.parameters)
     low, high = 0.0, 10.0 * diameter
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if reaction(middle)[0] < max(weight, 1e-6) else (low, middle)
-    force, slope = reaction(high)
+        low, high = (middle, high) if SOIL.reaction(middle, diameter, *soil)[0] < max(weight, 1e-6) else (low, middle)
+    force, slope = map(float, SOIL.reaction(high, diameter, *soil))
     return force / high, slope
 
 

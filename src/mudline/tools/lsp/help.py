@@ -23,7 +23,6 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Names
 from mudline.language.syntax.fields import trimmed
 from mudline.model.results.curve_rows import diameters_on
-from mudline.model.results.summary import followers
 from mudline.model.scene.curves import ENDS, SceneCurve
 from mudline.model.scene.deck_values import find_file
 from mudline.model.scene.model import Scene
@@ -257,7 +256,7 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
     unit = unit_names(scene.units).line_force
     points = f"{counted(len(ratios), 'point')}, ratio {ratios[0]:g} to {ratios[-1]:g}"
     force = _with_unit(f"force {forces[0]:g} to", float(forces[-1]), unit)
-    followed = counted(int(followers(scene, index).sum()), "element")
+    followed = counted(len(scene.followers(index)), "element")
     return f"{_title(entry)}: {points}, {force}\n\nfollowed by {followed}"
 
 

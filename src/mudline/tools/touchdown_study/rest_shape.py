@@ -295,7 +295,7 @@ def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, po
     tension = trial.tension * math.hypot(1.0, slope)
     node = int(np.clip(np.argmin(np.abs(arcs - arc)), 1, len(elements) - 1))
     own = int(elements[node - 1])
-    weight, bending = float(pipe.weight[own]) * upright, float(pipe.bending[own])
+    weight, bending = float(pipe.weight[own]) * upright, float(np.nan_to_num(pipe.bending[own]))
     size = max(math.sqrt(bending / tension), float(given.length[own]))
     if size * weight > _STEEP * tension:  # slopes are not small where the line bends
         return _NO_BEND

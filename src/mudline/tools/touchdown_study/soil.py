@@ -11,7 +11,6 @@ from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.laws import PathLaw
 from mudline.model.contact.tables import LawTables, NormalRows
 from mudline.model.contact.tangent import Triples
-from mudline.model.curves import ForceCurve
 
 ElementMatrix = Literal["mean", "consistent"]
 """Law at the mean depth of an element with half of the force on each node, or law integrated along the element."""
@@ -42,15 +41,15 @@ class Reaction(NamedTuple):
 class _Curves:
     """Force-embedment curves of several elements, evaluated together like `ForceCurve`, a table row for each."""
 
-    def __init__(self, groups: list[NormalRows], curves: tuple[ForceCurve, ...], diameter: FloatArray) -> None:
-        of_row = {row: each.curve for each in groups for row in each.rows.tolist()}
+    def __init__(self, groups: list[NormalRows], diameter: FloatArray) -> None:
+        of_row = {row: each.curve for each in groups if each.curve for row in each.rows.tolist()}
         self.rows: IndexArray = np.array(sorted(of_row), np.intp)
-        used = [curves[of_row[row]] for row in self.rows.tolist()]
+        used = [of_row[row] for row in self.rows.tolist()]
         width = max((len(curve.slopes) for curve in used), default=1) + 1
         size = diameter[self.rows]
         self._starts, self._forces, self._slopes = (np.full((len(used), width), fill) for fill in (np.inf, 0.0, 0.0))
         for at, curve in enumerate(used):  # no force above the mudline, then the segments below it
-            first = int(np.clip(np.searchsorted(curve.ratios, 0.0, side="right") - 1, 0, len(curve.slopes) - 1))
+            first = int(curve.segment(0.0))
             count = len(curve.slopes) - first + 1
             self._starts[at, :count] = np.append(0.0, curve.ratios[first:-1] * size[at])
             self._forces[at, 1:count] = curve.forces[first:-1]
@@ -71,8 +70,8 @@ class ElasticSoil:
     def __init__(self, given: ContactInput, matrix: ElementMatrix = "mean") -> None:
         tables, self._length = LawTables(given), given.length
         self._onset, self._cut, self._diameter = given.onset(), given.tension == "cut", given.diameter
-        self._curves = _Curves([each for each in tables.normal if each.curve >= 0], given.curves, given.diameter)
-        self._others, self._nodal = [each for each in tables.normal if each.curve < 0], tables.nodal
+        self._curves = _Curves(tables.normal, given.diameter)
+        self._others, self._nodal = [each for each in tables.normal if each.curve is None], tables.nodal
         self._carried = np.append(self._length, 0.0) + np.append(0.0, self._length)
         points, weights = (np.array([0.0]), np.array([2.0])) if matrix == "mean" else _GAUSS
         self._points = [

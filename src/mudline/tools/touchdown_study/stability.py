@@ -14,7 +14,6 @@ from mudline.model.contact.input import LawKind
 from mudline.model.contact.stretch import static_depth
 from mudline.model.curves import ForceCurve
 from mudline.model.results.stage_times import Timer, seconds_per_step
-from mudline.model.results.summary import followers
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.load_case import OwnSteps
 from mudline.model.scene.model import Scene
@@ -150,7 +149,7 @@ def change(value: float, reference: float) -> float:
 def _curves_in_use(scene: Scene, given: ContactInput) -> Iterator[tuple[SceneCurve, ForceCurve, float, float]]:
     """Yield the curves that elements follow, with diameter and submerged weight of the first of these elements."""
     for index, entry in enumerate(scene.laws.curves):
-        rows = np.flatnonzero(followers(scene, index))
+        rows = scene.followers(index)
         if entry.curve is not None and rows.size:
             at = int(rows[0])
             weight = math.nan if given.weight is None else float(given.weight[at])

@@ -228,7 +228,7 @@ def touchdown_zone(scene: Scene, given: ContactInput, heave: float | None, perio
     arc = touchdowns(catenary, line.model.length)[-1].arc
     node = int(np.clip(np.argmin(np.abs(arcs - arc)), 1, len(line.elements) - 1))
     own = int(line.elements[node - 1])
-    weight, bending = float(pipe.weight[own]) * line.seabed.upright, float(pipe.bending[own])
+    weight, bending = float(pipe.weight[own]) * line.seabed.upright, float(np.nan_to_num(pipe.bending[own]))
     mass = float(pipe.mass[own] + pipe.contents[own] + pipe.added_mass[own])
     _require(scene, own, weight, bending, mass)
     tension = catenary.tension * math.hypot(1.0, line.seabed.slope)

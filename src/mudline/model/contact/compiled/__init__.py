@@ -74,7 +74,7 @@ def features_of(tables: LawTables, *, flat: bool) -> Features:
     return Features(
         **{name: getattr(tables, name) is not None for name in own},
         flat=flat,
-        curves=any(rows.curve >= 0 for rows in tables.normal),
+        curves=any(rows.curve for rows in tables.normal),
         paths=any(rows.path >= 0 for rows in tables.normal),
         cuts=tables.cuts,
         steepens=tables.steepens,
@@ -91,7 +91,7 @@ def features_of(tables: LawTables, *, flat: bool) -> Features:
 
 def formulas(tables: LawTables) -> list[NormalRows]:
     """Return the normal laws of elements with an equation in the order of their kinds, those with a path first."""
-    return sorted((rows for rows in tables.normal if rows.curve < 0), key=lambda rows: rows.path < 0)
+    return sorted((rows for rows in tables.normal if rows.curve is None), key=lambda rows: rows.path < 0)
 
 
 def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
@@ -114,8 +114,7 @@ def element_tables(tables: LawTables) -> tuple[Any, Any, Any]:
     knots = [np.empty((4, 0))]
     start = 0
     for rows in tables.normal:
-        if rows.curve >= 0:
-            curve = given.curves[rows.curve]
+        if (curve := rows.curve) is not None:
             each, steepest = curve.slopes, law_module("linear").steepest_slopes(curve)
             knots.append(
                 np.stack([curve.ratios, curve.forces, np.append(each, each[-1]), np.append(steepest, steepest[-1])])
