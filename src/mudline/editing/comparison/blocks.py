@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 from itertools import takewhile
@@ -17,6 +16,7 @@ from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Rec
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.keywords.writer import field_text, joined
+from mudline.language.syntax.tree import data_lines
 
 _KEYS = {"set", "name", "curve"}
 
@@ -167,7 +167,6 @@ def _rank(cell: float | str | None) -> tuple[str, float]:
 
 _ONE_IN_ALL = ("MODEL", "PREPROCESSOR")
 """Sections that count as one section, however often they occur."""
-_COMMENT = re.compile(r"[Cc](?:(?:[ \t]|[-*=#_.~+]{2}).*)?$")
 
 _Name = tuple[str, str]
 
@@ -238,22 +237,17 @@ def _lines(side: Side) -> dict[_Name, _Lines]:
     lines_by_name: dict[_Name, _Lines] = {}
     deck = side.scene.deck
     titles = list(_titles(side))
-    if data := [(line, Where()) for line in _data(deck.preamble)]:
+    if data := [(line, Where()) for line in data_lines(deck.preamble)]:
         lines_by_name["", ""] = data
     for i, section in enumerate(deck.sections):
         if section.lines:
-            lines_by_name.setdefault((titles[i], ""), []).extend((line, Where(i)) for line in _data(section.lines))
+            lines_by_name.setdefault((titles[i], ""), []).extend((line, Where(i)) for line in data_lines(section.lines))
         for j, block in enumerate(section.blocks):
             if isinstance(block, Opaque):
                 lines = lines_by_name.setdefault((titles[i], block.keyword), [])
                 lines.append((f"*{block.keyword}", Where(i, j)))
-                lines += [(line, Where(i, j)) for line in _data(block.lines)]
+                lines += [(line, Where(i, j)) for line in data_lines(block.lines)]
     return lines_by_name
-
-
-def _data(lines: list[str]) -> Iterator[str]:
-    stripped = (line.strip(" \t\r") for line in lines if not _COMMENT.match(line))
-    return (line for line in stripped if line)
 
 
 def _opaque(name: _Name, before: _Lines, after: _Lines, pair: Pair) -> Iterator[Difference]:
