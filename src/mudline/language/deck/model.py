@@ -27,7 +27,7 @@ from mudline.language.diagnostics import (
 )
 from mudline.language.keywords.contents import Role, every_name_given, gives_names, kept_places
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.model import Block, Part, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, Part
 from mudline.language.keywords.values import Names, Text
 
 
@@ -141,7 +141,8 @@ _KINDS: dict[str, tuple[Any, str]] = {
 class Deck:
     """Deck: its sections and blocks as validated models, equations as written.
 
-    `mudline.Deck` is this class with the methods that create texts and scenes from a deck.
+    `mudline.Deck` is this class with the methods that create texts and scenes from a deck. Decks are equal (`==`) if
+    the names of their files are the same too: two copies of a text under different names are not.
 
     Attributes:
         file: name of the file in messages.
@@ -332,14 +333,13 @@ def comment_texts(deck: Deck) -> Iterator[str]:
     for section in deck.sections:
         yield from (comment.text for comment in section.comments)
         for block in section.blocks:
-            yield from _comments_in(block)
+            inner = (value for _, _, value in block.walk(_holds_records))
+            for part in (block, *inner):
+                yield from (comment.text for comment in getattr(part, "comments", ()))
 
 
-def _comments_in(part: Part) -> Iterator[str]:
-    yield from (comment.text for comment in getattr(part, "comments", ()))
-    for slot in record_schema(type(part)).slots:
-        for record in (getattr(part, slot.name, None) or ()) if slot.record else ():
-            yield from _comments_in(record)
+def _holds_records(slot: FieldSpec) -> bool:
+    return bool(slot.record)
 
 
 class Base(NamedTuple):
