@@ -234,19 +234,15 @@ _Lines = list[tuple[str, Where]]
 
 def _lines(side: Side) -> dict[_Name, _Lines]:
     """Return the data lines without blanks at their ends; those of blocks of the same keyword follow each other."""
+    deck, titles = side.scene.deck, list(_titles(side))
+    held = [(Where(), ("", ""), deck.preamble)]
+    held += [(Where(index), (titles[index], ""), section.lines) for index, section in enumerate(deck.sections)]
+    for where, _, block in deck.every_block():
+        if isinstance(block, Opaque):
+            held.append((where, (titles[where.section], block.keyword), [f"*{block.keyword}", *block.lines]))
     lines_by_name: dict[_Name, _Lines] = {}
-    deck = side.scene.deck
-    titles = list(_titles(side))
-    if data := [(line, Where()) for line in data_lines(deck.preamble)]:
-        lines_by_name["", ""] = data
-    for i, section in enumerate(deck.sections):
-        if section.lines:
-            lines_by_name.setdefault((titles[i], ""), []).extend((line, Where(i)) for line in data_lines(section.lines))
-        for j, block in enumerate(section.blocks):
-            if isinstance(block, Opaque):
-                lines = lines_by_name.setdefault((titles[i], block.keyword), [])
-                lines.append((f"*{block.keyword}", Where(i, j)))
-                lines += [(line, Where(i, j)) for line in data_lines(block.lines)]
+    for where, name, lines in sorted(held):
+        lines_by_name.setdefault(name, []).extend((line, where) for line in data_lines(lines))
     return lines_by_name
 
 
