@@ -176,8 +176,7 @@ def _tables(deck: GivenDeck, form: str) -> Deck:
 
 def _require_values(deck: Deck) -> None:
     """Raise DeckError with the errors of a deck some of whose values no document holds."""
-    blocks = (block for section in deck.sections for block in section.blocks)
-    if not any(isinstance(block, Block) and is_refused(block) for block in blocks):
+    if not any(is_refused(block) for _, _, block in deck.every_block() if isinstance(block, Block)):
         return
     from mudline.checks.verdict import all_findings, errors_of  # noqa: PLC0415 - only a faulty deck is checked
 

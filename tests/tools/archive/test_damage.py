@@ -114,7 +114,7 @@ def test_a_damaged_table_is_named_and_nothing_is_written(archive: Path, decks: P
         at = data.index(b"Clay")
         path.write_bytes(data[:at] + b"Clax" + data[at + 4 :])
     else:
-        path.write_bytes(data[:-50] if damage == "cut" else data.replace(b"archive/4", b"archive/5"))
+        path.write_bytes(data[:-50] if damage == "cut" else data.replace(b"archive/5", b"archive/6"))
     before = {found: found.read_bytes() for found in archive.iterdir() if found.is_file()}
     outcome = index(write(decks, c=deck("c")), archive=archive)
     assert outcome.code == 2

@@ -174,6 +174,23 @@ def test_json_and_what_is_no_deck_at_all(decks: Path, archive: Path) -> None:
     assert same == [{"n": 1}]
 
 
+def test_the_content_is_the_same_whatever_the_comments_and_the_layout(tmp_path: Path) -> None:
+    """In blocks that are read, and in those whose lines are kept, where only a word with C is taken for data."""
+    kept = "*PLANAR PIPE CONTACT\n SET=TDZ,  1.0\n"
+    comments = ("C", "C water", "C--- water", "C***", "c low", "c...")
+    texts = {"plain": deck() + kept, "word": deck().replace("*OCEAN\n", "*OCEAN\nComment\n") + kept}
+    for number, comment in enumerate(comments):
+        text = deck().replace("*OCEAN\n 500.0,", f"*OCEAN\n{comment}\n  500,").replace("CURVE=Clay", "CURVE=CLAY")
+        texts[f"comment{number}"] = text + kept.replace("T\n", f"T\n{comment}\n\n").replace("TDZ,  1.0", "tdz, 1.0")
+    texts["other"] = deck() + kept.replace("1.0", "2.0")
+    archive = tmp_path / "archive"
+    index(write(tmp_path / "decks", **texts), archive=archive)
+    found = ask(archive, "SELECT count(*) AS n FROM decks GROUP BY content ORDER BY n")
+    assert [row["n"] for row in found] == [1, len(comments) + 2]
+    unread = ask(archive, "SELECT count(*) AS n FROM keywords WHERE NOT is_read")
+    assert unread == [{"n": len(texts)}]
+
+
 def test_an_archive_lies_outside_of_the_decks(decks: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither a folder of decks becomes one, nor is one indexed; below a folder that is searched it is left out."""
     before = sorted(decks.parent.rglob("*"))

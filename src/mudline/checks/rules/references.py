@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 from mudline.basics.outside import without_text
 from mudline.basics.spelling import Effort, nearest
 from mudline.checks.context import LintContext, records_of
-from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
@@ -412,11 +412,10 @@ def _fault(named: _Named, path: Path) -> str:
 
 def _files(context: LintContext) -> Iterator[_Named]:
     """Yield the files of the deck itself whose contents are known."""
-    for i, section in enumerate(context.deck.own_sections):
-        for j, block in enumerate(section.blocks):
-            for path, slot, name in () if isinstance(block, Opaque) else block.walk(_holds_data):
-                if isinstance(name, str) and name:
-                    yield _Named(Where(i, j, path), block.at(path[:-1])[1], slot, name)
+    for where, _, block in context.deck.alone.every_block():
+        for path, slot, name in block.walk(_holds_data):
+            if isinstance(name, str) and name:
+                yield _Named(where._replace(path=path), block.at(path[:-1])[1], slot, name)
 
 
 def _holds_data(slot: FieldSpec) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 from mudline.basics.arguments import ArgumentKindError
 from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
-from mudline.editing.assignment.fields import FieldTarget, FieldValue, blocks_of, target_of, values_of
+from mudline.editing.assignment.fields import FieldTarget, FieldValue, blocks_of, equals, target_of, values_of
 from mudline.editing.assignment.paths import Assignment, WrittenOperand, parse_path
 from mudline.language.deck.keyword_text import same_meaning
 from mudline.language.deck.model import Deck
@@ -80,9 +80,9 @@ def assigned(deck: Deck, assignment: Assignment, target: FieldTarget, units: str
         raise AssignmentError(f"{target.path} is not written in the deck", line)
     if isinstance(current.value, Equation):
         raise AssignmentError(_BY_EQUATION.format(target.path, cut(str(current.value), 60)), line)
-    new_value = _checked(current, operand, assignment, line)
+    _require_fitting(current, operand, assignment, line)
     written = origin.source.text[slice(*span)]
-    if _same(current.value, new_value):
+    if current.value is not None and equals(current.value, operand):
         return Assigned((), line, written, written)
     edits = tuple(replacement_in_layout(origin.source, span, assignment.value))
     try:
@@ -93,7 +93,7 @@ def assigned(deck: Deck, assignment: Assignment, target: FieldTarget, units: str
     after = read_source(Source.from_bytes(content, deck.file), units=units)
     after.folder = deck.folder
     _require_no_worse(deck, after, line)
-    _require_only_this(deck, after, current, new_value, assignment, line)
+    _require_only_this(deck, after, current, operand, assignment, line)
     return Assigned(edits, line, written, assignment.value)
 
 
@@ -166,22 +166,15 @@ def _kinds(target: FieldTarget) -> Iterator[str]:
             yield field.slot.kind.value
 
 
-def _checked(current: FieldValue, operand: WrittenOperand, assignment: Assignment, line: int) -> float | str:
-    """Return the new value as a deck holds it; raises AssignmentError for a value that the field cannot have."""
+def _require_fitting(current: FieldValue, operand: WrittenOperand, assignment: Assignment, line: int) -> None:
+    """Raise AssignmentError for a number that the field cannot have."""
     slot = current.field.slot
     if operand.number is None or (slot.kind in (Kind.NAME, Kind.TITLE) and not slot.choices):
-        return operand.text
+        return
     if slot.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL) and not operand.number.is_integer():
         raise AssignmentError(f"{assignment.path} cannot be {assignment.value!r}: expected a whole number", line)
     if fault := range_fault(operand.number, slot):
         raise AssignmentError(fault, line)
-    return operand.number
-
-
-def _same(first: object, second: object) -> bool:
-    if isinstance(first, str) and isinstance(second, str):
-        return first.casefold() == second.casefold()
-    return first == second
 
 
 def _require_no_worse(before: Deck, after: Deck, line: int) -> None:
@@ -197,14 +190,14 @@ def _require_no_worse(before: Deck, after: Deck, line: int) -> None:
 
 
 def _require_only_this(
-    before: Deck, after: Deck, current: FieldValue, new_value: float | str, assignment: Assignment, line: int
+    before: Deck, after: Deck, current: FieldValue, operand: WrittenOperand, assignment: Assignment, line: int
 ) -> None:
-    """Raise AssignmentError unless the decks differ only in the given value, now `new_value`; changes `before`."""
+    """Raise AssignmentError unless the decks differ only in the given value, now `operand`; changes `before`."""
     if before.units != after.units:
         message = f"the units of the deck, {before.units}, would be taken for {after.units}: give them by --units"
         raise AssignmentError(message, line)
     new = _at(after, current.where)
-    if _same(new, new_value):
+    if isinstance(new, float | int | str) and equals(new, operand):
         if isinstance(current.owner, Table):
             _set_cell(current.owner, after, current.where)
         else:

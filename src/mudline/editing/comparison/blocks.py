@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 from itertools import takewhile
@@ -16,6 +15,7 @@ from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import field_text, joined
+from mudline.language.syntax.tree import data_lines
 
 _KEYS = {"set", "name", "curve"}
 
@@ -165,7 +165,6 @@ def _rank(cell: float | str | None) -> tuple[str, float]:
 
 _ONE_IN_ALL = ("MODEL", "PREPROCESSOR")
 """Sections that count as one section, however often they occur."""
-_COMMENT = re.compile(r"[Cc](?:(?:[ \t]|[-*=#_.~+]{2}).*)?$")
 
 _Name = tuple[str, str]
 
@@ -233,25 +232,16 @@ _Lines = list[tuple[str, Where]]
 
 def _lines(side: Side) -> dict[_Name, _Lines]:
     """Return the data lines without blanks at their ends; those of blocks of the same keyword follow each other."""
+    deck, titles = side.scene.deck, list(_titles(side))
+    held = [(Where(), ("", ""), deck.preamble)]
+    held += [(Where(index), (titles[index], ""), section.lines) for index, section in enumerate(deck.sections)]
+    for where, _, block in deck.every_block():
+        if isinstance(block, Opaque):
+            held.append((where, (titles[where.section], block.keyword), [f"*{block.keyword}", *block.lines]))
     lines_by_name: dict[_Name, _Lines] = {}
-    deck = side.scene.deck
-    titles = list(_titles(side))
-    if data := [(line, Where()) for line in _data(deck.preamble)]:
-        lines_by_name["", ""] = data
-    for i, section in enumerate(deck.sections):
-        if section.lines:
-            lines_by_name.setdefault((titles[i], ""), []).extend((line, Where(i)) for line in _data(section.lines))
-        for j, block in enumerate(section.blocks):
-            if isinstance(block, Opaque):
-                lines = lines_by_name.setdefault((titles[i], block.keyword), [])
-                lines.append((f"*{block.keyword}", Where(i, j)))
-                lines += [(line, Where(i, j)) for line in _data(block.lines)]
+    for where, name, lines in sorted(held):
+        lines_by_name.setdefault(name, []).extend((line, where) for line in data_lines(lines))
     return lines_by_name
-
-
-def _data(lines: list[str]) -> Iterator[str]:
-    stripped = (line.strip(" \t\r") for line in lines if not _COMMENT.match(line))
-    return (line for line in stripped if line)
 
 
 def _opaque(name: _Name, before: _Lines, after: _Lines, pair: Pair) -> Iterator[Difference]:

@@ -23,10 +23,10 @@ from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem
 from mudline.language.syntax.edits import edited_bytes
 from mudline.language.syntax.source import Source
+from mudline.language.syntax.tree import is_comment
 from mudline.model.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.model.contact.model import ContactModel
 from mudline.model.curves import ForceCurve
-from mudline.model.scene.deck_values import data_lines
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.seabed import parse_profile
@@ -111,10 +111,9 @@ def _differences(before: Scene, after: Scene, files: Mapping[str, bytes]) -> lis
 def _comments(deck: Deck) -> Iterator[str]:
     """Yield the text of every comment, including those among the lines of opaque blocks."""
     yield from comment_texts(deck)
-    opaque = (block.lines for section in deck.sections for block in section.blocks if isinstance(block, Opaque))
-    for lines in opaque:
-        data = set(data_lines(lines))
-        yield from (line[1:] for line in lines if line not in data)
+    for _, _, block in deck.every_block():
+        if isinstance(block, Opaque):
+            yield from (line[1:] for line in block.lines if is_comment(line, words=True))
 
 
 # -------------------------------------------------------------------------------------------------------- verification

@@ -17,19 +17,18 @@ from mudline.basics.short_repr import short_repr
 from mudline.editing.variations.cases import Action, Addition, ParameterTargets
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump
-from mudline.language.deck.model import Deck
+from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import names_given
-from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, edited_bytes
-from mudline.language.syntax.fields import first_key, read_line
+from mudline.language.syntax.fields import first_key
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection
-from mudline.model.scene.deck_values import file_name, find_file
+from mudline.model.scene.deck_values import file_name, find_file, settings_in
 
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
 _DRIVE = re.compile(r"[A-Za-z]:")
@@ -104,15 +103,14 @@ def companions(deck: Deck) -> list[str]:
 
 
 def _written(deck: Deck) -> Iterator[str]:
-    origin = cast("TextOrigin", deck.origin)
-    text = origin.source.unified
-    for section, raw in zip(deck.sections, origin.tree.sections, strict=True):
-        for block, lines in zip(section.blocks, raw.blocks, strict=True) if section.name != "PREPROCESSOR" else ():
-            if isinstance(block, Block):
-                yield from (name for what in (Names.FILE, Names.DECK) for _, name in names_given(block, what))
-            for leaf in () if isinstance(block, Block) else lines.leaves:
-                groups = read_line(text, leaf.span).groups if leaf.kind is LeafKind.SETTING else ()
-                yield from (group.fields[0].text for group in groups if group.key in _KEYS and group.fields)
+    for _, section, block in deck.every_block():
+        if section == "PREPROCESSOR":
+            continue
+        if isinstance(block, Opaque):
+            settings = settings_in(block.lines, words=False)
+            yield from (group.fields[0].text for group in settings if group.key in _KEYS)
+        else:
+            yield from (name for what in (Names.FILE, Names.DECK) for _, name in names_given(block, what))
 
 
 # ------------------------------------------------------------------------------------------------ the text of each deck

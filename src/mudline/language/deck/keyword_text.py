@@ -5,7 +5,7 @@ Blocks that cannot be read are their lines: documents hold them so, and a keywor
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from itertools import chain, zip_longest
 from typing import Any, TypeVar, cast
@@ -23,7 +23,7 @@ from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import Block, Part, Path, record_schema
 from mudline.language.keywords.reader import ReadBlock
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.writer import block_lines, with_comments
+from mudline.language.keywords.writer import block_lines
 from mudline.language.syntax.source import Source
 
 
@@ -79,13 +79,30 @@ def as_text(deck: Deck) -> Deck:
 
 def canonical_text(deck: Deck) -> str:
     """The deck as keyword text, whether it can be read back or not."""
-    sections = with_comments(deck.comments, ((_section(section), 1) for section in deck.sections))
-    return "\n".join([*deck.preamble, *sections, ""])
+    return "\n".join([*chain.from_iterable(pieces_of(deck)), ""])
 
 
-def _section(section: Section) -> list[str]:
-    blocks = with_comments(section.comments, ((lines_of(block), 1) for block in section.blocks))
-    return [f"${section.name}", *section.lines, *blocks]
+Lines = tuple[str, ...]
+
+
+def pieces_of(deck: Deck) -> list[Lines]:
+    """The lines of the preamble, of the head of each section and of each block, with the comments behind them."""
+    between = _by_place(deck.comments, len(deck.sections))
+    pieces: list[Lines] = [(*deck.preamble, *between[0])]
+    for number, section in enumerate(deck.sections, 1):
+        inside = _by_place(section.comments, len(section.blocks))
+        pieces.append((f"${section.name}", *section.lines, *inside[0]))
+        pieces += [(*lines_of(block), *texts) for block, texts in zip(section.blocks, inside[1:], strict=True)]
+        pieces[-1] += between[number]
+    return pieces
+
+
+def _by_place(comments: Iterable[Comment], count: int) -> list[Lines]:
+    """The lines of the comments before each of so many items, and behind the last."""
+    found: list[list[str]] = [[] for _ in range(count + 1)]
+    for comment in sorted(comments, key=lambda one: one.before):
+        found[min(comment.before, count)].append(f"C{comment.text}")
+    return list(map(tuple, found))
 
 
 def lines_of(block: Block | Opaque) -> list[str]:

@@ -70,17 +70,16 @@ def coverage_of(deck: Deck) -> Coverage:
     The name of an unread keyword is followed by its section if a keyword of that name is read in another section.
     """
     coverage = Coverage()
-    for section in deck.own_sections:
-        for block in section.blocks:
-            coverage.total += 1
-            if extent(block) == "read":
-                coverage.read += 1
-            else:
-                unread = type(block) is Opaque
-                names, name = coverage.unread if unread else coverage.partly, block.keyword
-                if unread and is_read_somewhere(name):
-                    name += f" in ${section.name}"
-                names[name] = names.get(name, 0) + 1
+    for _, section, block in deck.alone.every_block():
+        coverage.total += 1
+        if extent(block) == "read":
+            coverage.read += 1
+        else:
+            unread = type(block) is Opaque
+            names, name = coverage.unread if unread else coverage.partly, block.keyword
+            if unread and is_read_somewhere(name):
+                name += f" in ${section}"
+            names[name] = names.get(name, 0) + 1
     return coverage
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import NoneType
@@ -27,7 +27,7 @@ from mudline.language.diagnostics import (
 )
 from mudline.language.keywords.contents import Role, every_name_given, gives_names, kept_places
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.model import Block, Part, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, Part
 from mudline.language.keywords.values import Names, Text
 
 
@@ -144,7 +144,8 @@ _KINDS: dict[str, tuple[Any, str]] = {
 class Deck:
     """Deck: its sections and blocks as validated models, equations as written.
 
-    `mudline.Deck` is this class with the methods that create texts and scenes from a deck.
+    `mudline.Deck` is this class with the methods that create texts and scenes from a deck. Decks are equal (`==`) if
+    the names of their files are the same too: two copies of a text under different names are not.
 
     Attributes:
         file: name of the file in messages.
@@ -253,31 +254,26 @@ class Deck:
         return self._owned_at(where)[0].folder
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
-        """Yield the modelled blocks of a keyword in all sections of a name, in the order of the file.
+        """Return the modelled blocks of a keyword in all sections of a name, in the order of the file.
 
         Blocks of continued decks come first, so that the deck's own blocks override them. The caller knows the class of
         the keyword; it is not imported for a deck that lacks the keyword.
         """
-        for index, holder in self._in_order():
-            if holder.name == section:
-                for number, block in enumerate(holder.blocks):
-                    if block.keyword == keyword and type(block) is not Opaque:
-                        yield Where(index, number), block
+        modelled = self._modelled(section)
+        return ((Where(index, number), block) for index, number, block in modelled if block.keyword == keyword)
 
     def blocks_with(self, fact: str, section: str = "MODEL") -> list[tuple[Where, Any]]:
         """Return the modelled blocks whose declaration has a flag of `Facts`, in the order of `blocks`."""
-        return [
-            (Where(index, number), block)
-            for index, holder in self._in_order()
-            if holder.name == section
-            for number, block in enumerate(holder.blocks)
-            if type(block) is not Opaque and getattr(block.facts, fact)  # type: ignore[union-attr]  # as above
-        ]
+        modelled = self._modelled(section)
+        return [(Where(index, number), block) for index, number, block in modelled if getattr(block.facts, fact)]
 
-    def _in_order(self) -> Iterable[tuple[int, Section]]:
-        """Return the sections with their numbers, those of continued decks first."""
+    def _modelled(self, section: str) -> Iterator[tuple[int, int, Any]]:
+        """Yield the modelled blocks in sections of a name with their numbers, those of continued decks first."""
         own = len(self.own_sections)
-        return sorted(enumerate(self.sections), key=lambda placed: placed[0] < own)
+        for index, holder in sorted(enumerate(self.sections), key=lambda placed: placed[0] < own):
+            for number, block in enumerate(holder.blocks) if holder.name == section else ():
+                if type(block) is not Opaque:
+                    yield index, number, block
 
     def every_block(self) -> list[tuple[Where, str, Block | Opaque]]:
         """Return the blocks of all sections in order, read or not: place, name of the section, block."""
@@ -339,14 +335,13 @@ def comment_texts(deck: Deck) -> Iterator[str]:
     for section in deck.sections:
         yield from (comment.text for comment in section.comments)
         for block in section.blocks:
-            yield from _comments_in(block)
+            inner = (value for _, _, value in block.walk(_holds_records))
+            for part in (block, *inner):
+                yield from (comment.text for comment in getattr(part, "comments", ()))
 
 
-def _comments_in(part: Part) -> Iterator[str]:
-    yield from (comment.text for comment in getattr(part, "comments", ()))
-    for slot in record_schema(type(part)).slots:
-        for record in (getattr(part, slot.name, None) or ()) if slot.record else ():
-            yield from _comments_in(record)
+def _holds_records(slot: FieldSpec) -> bool:
+    return bool(slot.record)
 
 
 class Base(NamedTuple):

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from difflib import SequenceMatcher
 from itertools import chain
 
 from mudline.basics.spelling import common_start
 from mudline.language.codes import DOC002
-from mudline.language.deck.keyword_text import canonical_text, lines_of, to_keyword
+from mudline.language.deck.keyword_text import Lines, canonical_text, pieces_of, to_keyword
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem, Span
-from mudline.language.keywords.fields import Comment
 from mudline.language.syntax.edits import OverlapError, TextEdit, edited_bytes, replacement_in_layout
 from mudline.language.syntax.fields import split
 from mudline.language.syntax.rows import line_spans
@@ -32,7 +31,7 @@ def keyword_file(deck: Deck) -> bytes:
     if not isinstance(deck.origin, TextOrigin):
         return text.encode()
     source = deck.origin.source
-    old, new = _pieces(read_source(source, units=deck.units)), _pieces(deck)
+    old, new = pieces_of(read_source(source, units=deck.units)), pieces_of(deck)
     tree = deck.origin.tree
     spans = [tree.preamble.span, *(spot.span for spot in tree.spots if spot.where.section >= 0)]
     try:
@@ -50,29 +49,6 @@ def keyword_file(deck: Deck) -> bytes:
             f"{letter!r} cannot be written in the file's encoding, {source.encoding}: save the file as UTF-8 first"
         )
         raise DeckError(deck.diagnose([Problem(DOC002, message)])) from error
-
-
-Lines = tuple[str, ...]
-
-
-def _pieces(deck: Deck) -> list[Lines]:
-    """The lines of the preamble, of the head of each section and of each block, with the comments behind them."""
-    between = _by_place(deck.comments, len(deck.sections))
-    pieces: list[Lines] = [(*deck.preamble, *between[0])]
-    for number, section in enumerate(deck.sections, 1):
-        inside = _by_place(section.comments, len(section.blocks))
-        pieces.append((f"${section.name}", *section.lines, *inside[0]))
-        pieces += [(*lines_of(block), *texts) for block, texts in zip(section.blocks, inside[1:], strict=True)]
-        pieces[-1] += between[number]
-    return pieces
-
-
-def _by_place(comments: Iterable[Comment], count: int) -> list[Lines]:
-    """The lines of the comments before each of so many items, and behind the last."""
-    found: list[list[str]] = [[] for _ in range(count + 1)]
-    for comment in sorted(comments, key=lambda one: one.before):
-        found[min(comment.before, count)].append(f"C{comment.text}")
-    return list(map(tuple, found))
 
 
 def _edits(source: Source, spans: list[Span], old: list[Lines], new: list[Lines], *, by_lines: bool) -> list[TextEdit]:

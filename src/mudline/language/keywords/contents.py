@@ -273,7 +273,7 @@ def is_refused(part: Part) -> bool:
     """Return True if a block that was read from text cannot be written as a document."""
     return (
         any(True for _ in range_faults(part))
-        or any(len(curve) < FEWEST_POINTS for _, _, curve in part.walk(_is_curve))
+        or any(len(curve) < FEWEST_POINTS for _, _, curve in part.walk(is_curve))
         or any(isinstance(value, int) and range_fault(value, slot) for _, slot, value in part.walk(_is_ranged_in_list))
     )
 
@@ -303,5 +303,6 @@ def _is_ranged_in_list(slot: FieldSpec) -> bool:
     return bool(slot.about.limits) and slot.of_list
 
 
-def _is_curve(slot: FieldSpec) -> bool:
+def is_curve(slot: FieldSpec) -> bool:
+    """Return True for a field that is the table of a curve."""
     return isinstance(slot.about, Rows) and bool(slot.about.curve)

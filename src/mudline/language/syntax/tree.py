@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache, cached_property, lru_cache
@@ -170,6 +170,20 @@ def canonical_name(line: str) -> str:
 def _known_name(line: str) -> str:
     name = _BLANKS.sub(" ", line.lstrip(f" \t{CONTROLS}").rstrip(" \t\r\n")[1:].strip(" \t"))
     return _COMMA.sub(",", name).upper()
+
+
+_COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)")
+_WORD_WITH_C = re.compile("C[A-Za-z]")
+
+
+def is_comment(line: str, *, words: bool = False) -> bool:
+    """Return True for a comment; with `words` also for a line with C and a letter in column 1, which may be one."""
+    return bool(_COMMENT.match(line) or (words and _WORD_WITH_C.match(line)))
+
+
+def data_lines(lines: Iterable[str], *, words: bool = False) -> list[str]:
+    """Return the lines that are neither blank nor comments in the sense of `is_comment`, without blanks around them."""
+    return [data for line in lines if not is_comment(line, words=words) and (data := line.strip(" \t\r"))]
 
 
 def mark_of(line: str) -> str:

@@ -12,7 +12,7 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
 from mudline.basics.spelling import Effort, edits, equally_near, nearest, same_marks
 from mudline.language.codes.fields import SYN016
-from mudline.language.deck.model import Deck, NamedPlace, Opaque
+from mudline.language.deck.model import Deck, NamedPlace, Opaque, raw_lines
 from mudline.language.deck.parameters import EvaluatedDeck, all_labels_read, bare, folded, labels_given, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
@@ -23,9 +23,8 @@ from mudline.language.keywords.model import ListRow, Path
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import hint, shown
 from mudline.language.keywords.values import Names
-from mudline.language.syntax.tree import canonical_name, mark_of
+from mudline.language.syntax.tree import canonical_name, is_comment, mark_of
 from mudline.model.scene.deck_values import (
-    COMMENT,
     definition_by,
     first_written,
     is_read_definer,
@@ -123,7 +122,7 @@ class Context:
     @cached_property
     def unread_lines(self) -> list[tuple[Where, str, str]]:
         """Lines of the deck itself that are not read, without comments: place, keyword and text."""
-        deck, unread = self.written, list[tuple[Where, str, str]]()
+        deck, found = self.written, list[tuple[Where, str, str]]()
         for at, _, block in deck.alone.every_block():
             lines: Iterable[tuple[Path, str]]
             if type(block) is Opaque:
@@ -134,8 +133,14 @@ class Context:
                 lines = ((("unread", n), line) for n, line in enumerate(deck.origin.kept_lines(at.section, at.block)))
             else:
                 lines = kept_places(block)
-            unread += ((at._replace(path=path), block.keyword, line) for path, line in lines if not COMMENT.match(line))
-        return unread
+            data = ((path, line) for path, line in lines if not is_comment(line, words=True))
+            found += ((at._replace(path=path), block.keyword, line) for path, line in data)
+        return found
+
+    @cached_property
+    def unread_text(self) -> str:
+        """Lines that are not read, also those of continued decks, in the form in which names are compared."""
+        return "\n".join(folded(line) for _, _, block in self.deck.every_block() for line in raw_lines(block))
 
     @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:

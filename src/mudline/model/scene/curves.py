@@ -6,7 +6,6 @@ Force-embedment curves, which elements follow, are resolved here too.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
 from math import inf
 from typing import Literal, NamedTuple, cast
 
@@ -16,7 +15,7 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.language.codes.fields import CRV001, CRV003, CRV011
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Blocks, Problem, Where
-from mudline.language.keywords.fields import Setting
+from mudline.language.keywords.contents import is_curve
 from mudline.language.keywords.model import Block, FieldSpec, Part, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
@@ -97,7 +96,7 @@ class SceneCurve(NamedTuple):
 def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve], list[SceneCurve]]:
     """Return the curves of `*SEABED STIFFNESS`, those of `*EMBEDMENT`, and all others, in the order of the file."""
     named, by_set = (
-        [_made(context, curve) for where, block in context.blocks(keyword) for curve in _curves(block, block, where)]
+        [_made(context, curve) for where, block in context.blocks(keyword) for curve in _curves(block, where)]
         for keyword in ("SEABED STIFFNESS", "EMBEDMENT")
     )
     if not all(curve.name for curve in named):
@@ -105,8 +104,8 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve], l
     others = [
         _made(context, curve)
         for where, _, block in context.deck.every_block()
-        if type(block) is not Opaque and _has_curves(type(block))
-        for curve in _curves(cast("Block", block), block, where)
+        if type(block) is not Opaque
+        for curve in _curves(cast("Block", block), where)
         if not curve.of_seabed
     ]
     return named, by_set, [_below_surface(context, curve) if curve.kind == OF_CURRENT else curve for curve in others]
@@ -166,36 +165,28 @@ def _below_surface(context: Context, curve: SceneCurve) -> SceneCurve:
     return curve._replace(reach=(low, high))
 
 
-@cache
-def _has_curves(part: type[Part]) -> bool:
-    """Return True if a part, or a record in it, has a table that is a curve."""
-    return any(
-        (isinstance(slot.about, Rows) and slot.about.curve) or any(map(_has_curves, slot.record.values()))
-        for slot in record_schema(part).slots
-    )
+def _curves(block: Block, where: Where) -> Iterator[SceneCurve]:
+    """Yield the curves of a block, named by the first settings of the records that they are in."""
+    for path, slot, table in block.walk(is_curve):
+        part: Part = block
+        names, title = list[str](), where
+        for end in range(2, len(path), 2):  # the records on the way to the table: a field and a number each
+            part = block.at(path[:end])[1]
+            settings = [(each, _given(part, each)) for each in record_schema(type(part)).slots if each.key]
+            if given := [(each, value) for each, value in settings if value is not None]:
+                first, value = min(given, key=lambda each: each[0].about.names is not Names.SET)
+                names.append(_written(first, value))
+                title = where.inside(*path[:end], first.json)
+        name = ", ".join(filter(None, names))
+        own = _curve(slot, table, block.keyword, name, (where.inside(*path[:-1]), title))
+        over = _OF_OPTION.get(str(getattr(part, "option", None)))
+        yield own._replace(axes=(over[0], own.axes[1]), units=(over[1], own.units[1])) if over else own
 
 
-def _curves(block: Block, part: Part, where: Where, name: str = "", title: Where | None = None) -> Iterator[SceneCurve]:
-    """Yield the curves of a part of a block, named by the first settings of their records."""
-    schema, title = record_schema(type(part)), title or where
-    if part is not block:
-        settings = [(slot, getattr(part, slot.name)) for slot in schema.slots if isinstance(slot.about, Setting)]
-        by_default = [slot.name for slot, _ in settings if slot.about.names is Names.SET and slot.about.default]
-        given = [(slot, value) for slot, value in settings if value is not None or slot.name in by_default]
-        if given:
-            first, value = min(given, key=lambda each: each[0].about.names is not Names.SET)
-            name = ", ".join(filter(None, [name, _written(first, first.about.default if value is None else value)]))
-            title = where.inside(first.json)
-    for slot in schema.slots:
-        value = getattr(part, slot.name)
-        if isinstance(slot.about, Rows) and slot.about.curve and isinstance(value, Table):
-            own = _curve(slot, value, block.keyword, name, (where, title))
-            over = _OF_OPTION.get(str(getattr(part, "option", None)))
-            yield own._replace(axes=(over[0], own.axes[1]), units=(over[1], own.units[1])) if over else own
-        elif slot.record:
-            for index, child in enumerate(value):
-                if _has_curves(cast("type[Part]", type(child))):
-                    yield from _curves(block, child, where.inside(slot.json, index), name, title)
+def _given(part: Part, slot: FieldSpec) -> object:
+    """Return the value of a setting; of one that names a set, also its default."""
+    value: object = getattr(part, slot.name)
+    return (slot.about.default or None) if value is None and slot.about.names is Names.SET else value
 
 
 def _written(slot: FieldSpec, value: object) -> str:

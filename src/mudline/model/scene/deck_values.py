@@ -19,8 +19,9 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, Row, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import LINE_SETS, Names
-from mudline.language.syntax.fields import read_line
+from mudline.language.syntax.fields import FieldGroup, read_line
 from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.tree import data_lines
 
 FOOT = 0.3048
 POUND = 4.4482216152605
@@ -110,7 +111,6 @@ def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
             yield where, deck.folder, name
 
 
-COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
 _WORD = re.compile(r"[^-+.,0-9 \t]")
 
 
@@ -162,10 +162,9 @@ def sets_in(block: Block | Opaque) -> Iterator[str]:
     if isinstance(block, Opaque):
         kept = catalogue.opaque_keyword("MODEL", block.keyword)
         keys = kept.name_settings if kept else {}
-        for line in data_lines(block.lines) if keys else ():
-            for group in read_line(line, Span(0, len(line))).groups if "=" in line else ():
-                if kind := keys.get(group.key):
-                    yield from (field.text for field in group.fields[: None if kind is Names.SETS else 1])
+        for group in settings_in(block.lines) if keys else ():
+            if kind := keys.get(group.key):
+                yield from (field.text for field in group.fields[: None if kind is Names.SETS else 1])
     elif block.facts.makes:
         for _, _, value in block.walk(lambda slot: slot.key in LINE_SETS):
             name = getattr(value, record_schema(type(value)).columns[0].name) if isinstance(value, Row) else value
@@ -173,17 +172,18 @@ def sets_in(block: Block | Opaque) -> Iterator[str]:
                 yield name
 
 
+def settings_in(lines: Iterable[str], *, words: bool = True) -> Iterator[FieldGroup]:
+    """Yield the settings in lines that are not read; with `words` none of a line with C and a letter in column 1."""
+    for line in data_lines(lines, words=words):
+        yield from read_line(line, Span(0, len(line))).groups if "=" in line else ()
+
+
 def texts_in(block: Block | Opaque) -> Iterator[str]:
     """Yield every value of a block that is neither a number nor an equation."""
     kept = catalogue.opaque_keyword("MODEL", block.keyword)
     if not isinstance(block, Opaque) or kept is None or not kept.labels:
         return
-    for line in data_lines(block.lines):
+    for line in data_lines(block.lines, words=True):
         if _WORD.search(line):
             texts = (field.text for group in read_line(line, Span(0, len(line))).groups for field in group.fields)
             yield from (text for text in texts if read_number(text) is None and not text.startswith("=["))
-
-
-def data_lines(lines: Iterable[str]) -> list[str]:
-    """Return the lines that are not comments; a line with C and a letter in column 1 is a comment."""
-    return [line for line in lines if not COMMENT.match(line)]  # no key of interest begins with C

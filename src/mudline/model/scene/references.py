@@ -19,7 +19,7 @@ from mudline.language.codes.fields import SYN002, SYN006
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF002, REF005, REF006, REF010, REF015, REF019
 from mudline.language.deck.model import Deck, Opaque, raw_lines
-from mudline.language.deck.parameters import NoValueError, Parameters, folded, name_key
+from mudline.language.deck.parameters import NoValueError, Parameters, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import idents_given, is_read, kinds_of
@@ -29,8 +29,9 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation, Label, Names, number_meant
 from mudline.language.syntax.fields import FieldGroup, read_line
 from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.tree import data_lines
 from mudline.model.scene.context import Context
-from mudline.model.scene.deck_values import data_lines, file_name, find_file, not_found
+from mudline.model.scene.deck_values import file_name, find_file, not_found
 from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.sets import Sets, sets_of_postprocessing
 
@@ -93,17 +94,11 @@ def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator
 
 def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Yield names that are not used: an info if the keywords that would use them are not read, or not in the deck."""
-    raw = ""
     for names in context.names_of(kinds):
         used = {name_key(use.name) for use in names.used}
         users = catalogue.users(names.kind)
         for key, (first, *_) in names.defined.items():
-            if key in used:
-                continue
-            if not raw:
-                unread = (line for _, _, block in context.deck.every_block() for line in raw_lines(block))
-                raw = "\n".join(map(folded, unread)) or "\n"
-            if key in raw:
+            if key in used or key in context.unread_text:
                 continue
             by = f"name it in {' or '.join(f'*{keyword}' for keyword in users)}, or remove it" if users else "remove it"
             severity = None if users else Severity.INFO
@@ -391,7 +386,7 @@ class _Looking:
         """Texts in unread lines that use no curve: a curve with one of these names may be defined there."""
         words: set[str] = set()
         for _, _, block in self.context.deck.every_block():
-            for line in data_lines(raw_lines(block)):
+            for line in data_lines(raw_lines(block), words=True):
                 worth = "CURVE" in line.upper() and len(line) <= _LONGEST
                 if not worth or not _uses_curve(read_line(line, Span(0, len(line))).groups):
                     pieces = line.replace("=", ",").split(",")

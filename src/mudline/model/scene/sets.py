@@ -18,8 +18,8 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import is_partly_unknown, names_given, set_slots
 from mudline.language.keywords.text import advice_on, shown
 from mudline.language.keywords.values import Names, known_name
-from mudline.language.syntax.fields import canonical_key
 from mudline.model.scene.context import Context
+from mudline.model.scene.deck_values import settings_in
 from mudline.model.scene.numbering import Indices, Numbered, distinct
 
 if TYPE_CHECKING:
@@ -140,10 +140,7 @@ def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
     if not isinstance(block, Opaque):
         yield from (name for _, name in names_given(block, Names.SET, "defines"))
     elif block.keyword in catalogue.definers(Names.SET):
-        for line in block.lines:
-            key, equals, name = line.partition("=")
-            if equals and canonical_key(key) == Names.SET.name:
-                yield name
+        yield from (group.fields[0].text for group in settings_in(block.lines) if group.key == Names.SET.name)
 
 
 class _SetReader:

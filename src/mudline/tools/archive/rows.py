@@ -18,13 +18,16 @@ from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, lint_context
 from mudline.checks.fixing import with_severities
 from mudline.checks.verdict import all_findings, errors_of
+from mudline.language.deck.keyword_text import meaning
 from mudline.language.deck.loading import coverage_of, extent, load_bytes
-from mudline.language.deck.model import Deck, Opaque, raw_lines
+from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, folded, name_key
 from mudline.language.diagnostics import DeckError, Diagnostic, Severity, Where
 from mudline.language.keywords.catalogue import is_extension, is_superseded
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation, Names
-from mudline.language.keywords.writer import block_lines
+from mudline.language.syntax.tree import data_lines
 from mudline.model.scene.model import Scene
 from mudline.model.scene.sets import ALL
 
@@ -222,12 +225,10 @@ def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
     named = {key: entry for key, entry in scene.set_table.named.items() if key != ALL}
     names = scene.context.names_of((Names.SET, Names.SUBSET))
     used = {name_key(use.name) for each in names for use in each.used}
-    # Unread lines may name sets.
-    unread = "\n".join(line for _, _, block in deck.every_block() for line in raw_lines(block)).casefold()
     for key, entry in named.items():
         ids = scene.element_ids[entry.elements]
         first, last = (int(ids.min()), int(ids.max())) if len(ids) else (None, None)
-        is_used = key in used or key in unread
+        is_used = key in used or key in scene.context.unread_text
         yield SetRow(entry.name, len(ids), first, last, not entry.open, is_used, _line(deck, entry.where))
 
 
@@ -275,8 +276,18 @@ def _number(data: bytes) -> int:
     return int.from_bytes(blake2b(data, digest_size=8).digest()) >> 1
 
 
-def _digest(section: str, block: Any) -> int:
+def _digest(section: str, block: Block | Opaque) -> int:
     """Return a digest of the values of a block; layout and comments do not count."""
-    lines = block.lines if type(block) is Opaque else block_lines(block)
-    texts = (" ".join(line.split()).casefold() for line in lines if not re.match(r"C(\s|$)", line))
-    return _number("\n".join([section, block.keyword, *filter(None, texts)]).encode("utf-8", "backslashreplace"))
+    if type(block) is Opaque:
+        block = Opaque(keyword=block.keyword, lines=data_lines(block.lines))
+    values = (f"{path} {_plain(value)}" for path, value in meaning(block).items())
+    return _number("\n".join([section, *values]).casefold().encode("utf-8", "backslashreplace"))
+
+
+def _plain(value: object) -> object:
+    """Return a value as it is compared: a text without layout, a table as its words and a digest of its numbers."""
+    if isinstance(value, Table):
+        return sorted(value.words.items()), _number(value.values.tobytes() + value.lengths.tobytes())
+    if isinstance(value, tuple):  # a line that is not read
+        return tuple(map(_plain, value))
+    return " ".join(value.split()) if isinstance(value, str) else value

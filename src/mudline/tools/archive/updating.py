@@ -24,7 +24,7 @@ from mudline.tools.archive.rows import TABLES, Rows, columns_of
 from mudline.tools.running.remembered import Memory
 
 VIEWS, LOCK, _MEMORY = "archive.duckdb", "mudline.lock", ".known"
-_FORMAT = {b"mudline": b"archive/4"}
+_FORMAT = {b"mudline": b"archive/5"}
 _WRITING, _WRITTEN = ".writing", ".written"
 """Folders of tables that are being written, and of tables that are complete but not all in their places."""
 _TYPES: dict[Any, Any] = {str: pa.string(), int: pa.int64(), float: pa.float64(), bool: pa.bool_()}

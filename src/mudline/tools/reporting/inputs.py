@@ -18,6 +18,7 @@ from mudline.language.keywords.format import unit_text
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import field_text
+from mudline.language.syntax.tree import data_lines
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask
 
@@ -72,8 +73,7 @@ def values_in_words(part: Part, units: str, without: Collection[str] = ()) -> It
 
 
 def _not_read(lines: Sequence[str]) -> Iterator[str]:
-    data = [line.strip() for line in lines if line.strip() and not line.startswith("C ")]
-    if data:
+    if data := data_lines(lines):
         yield f"not read: {' / '.join(data[:_MOST])}" + (f", {len(data) - _MOST} more" if len(data) > _MOST else "")
 
 
