@@ -13,7 +13,6 @@ import numpy as np
 from mudline.checks.context import LintContext
 from mudline.checks.rules.curve_points import swapped
 from mudline.checks.rules.slips import UNITLESS, DeckUnits, is_placeholder, meant_unit
-from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.contents import names_given
@@ -266,18 +265,14 @@ def _on_vessels(context: LintContext) -> dict[int, str]:
 
 
 def _waves(context: LintContext) -> list[Block]:
-    return [
-        block
-        for _, _, block in context.scene.deck.every_block()
-        if block.keyword.startswith("WAVE-") and not isinstance(block, Opaque)
-    ]
+    blocks = (block for _, _, block in context.scene.deck.every_block())
+    return [block for block in blocks if isinstance(block, Block) and block.keyword.startswith("WAVE-")]
 
 
 def _shortest_period(context: LintContext) -> float:
     """Return the shortest wave period of a load case, for random seas the peak period; infinite without waves."""
-    values = (
-        (slot.about.usual, value) for block in _waves(context) for _, slot, value in block.walk() if slot.about.usual
-    )
+    walked = (place for block in _waves(context) for place in block.walk())
+    values = ((slot.about.usual, value) for _, slot, value in walked if slot.about.usual)
     periods = (
         1.0 / value if usual is SEA_FREQUENCY else value
         for usual, value in values
