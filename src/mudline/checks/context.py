@@ -63,7 +63,7 @@ class LintContext:
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """Return `Deck.blocks` of the deck of the scene, whose equations are evaluated."""
-        return list(self.scene.deck.blocks(keyword, section))
+        return self.scene.context.placed.get((section, keyword), ())
 
     def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """Return `Deck.blocks` of the deck itself, with its equations."""

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
-from itertools import chain, pairwise
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import NamedTuple, cast
 
@@ -35,7 +35,7 @@ from mudline.language.codes.fields import SYN015
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Code, Problem, Where
 from mudline.language.keywords.contents import in_words
-from mudline.language.keywords.model import FieldSpec, Part, Rows, fields_of, record_schema
+from mudline.language.keywords.model import FieldSpec, Part, Path, Rows, fields_of, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.usual import BENT, Usual
@@ -109,8 +109,9 @@ class Judged(NamedTuple):
 
 def _inside(deck: Numbers, block: Part, where: Where) -> Iterator[Judged]:
     """Yield unusual values in a block, merged to one finding of each code for a part."""
-    parts = ((path, part) for path, _, part in block.walk(_is_judged) if isinstance(part, Part))
-    for path, part in chain([((), block)], parts):
+    parts: dict[Path, Part] = {(): block}
+    parts |= {path: part for path, _, part in block.walk(_is_judged) if isinstance(part, Part)}
+    for path, part in parts.items():
         own, listed = _judged(type(part), deck.units)
         suspects = [
             (slot, math.nan if isinstance(value, Part) else float(value))
@@ -120,7 +121,7 @@ def _inside(deck: Numbers, block: Part, where: Where) -> Iterator[Judged]:
         ]
         tables = [(slot, value) for slot in listed if (value := getattr(part, slot.name, None))]
         if suspects or tables:
-            holder = block.at(path[: -2 if isinstance(path[-1], int) else -1])[1] if path else None
+            holder = parts[path[: -2 if isinstance(path[-1], int) else -1]] if path else None
             place, columns = where.inside(*path), record_schema(type(part)).slots
             of = replace(deck, part=part, holder=holder, where=place, columns=columns)
             yield from _of_row([entry for slot, value in suspects for entry in _compared(of, slot, value, slot.json)])

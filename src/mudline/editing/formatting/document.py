@@ -102,7 +102,7 @@ class _DocumentLayout:
 
     def edits(self) -> list[TextEdit]:
         """Return all edits, in any order."""
-        for where, section, block in self.origin.tree.spots:
+        for where, section, block, _ in self.origin.tree.spots:
             if block is None:
                 if section.head:
                     self._head("$" + section.name, section.head)

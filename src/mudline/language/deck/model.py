@@ -254,13 +254,14 @@ class Deck:
         return self._owned_at(where)[0].folder
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
-        """Return the modelled blocks of a keyword in all sections of a name, in the order of the file.
+        """Yield the modelled blocks of a keyword in all sections of a name, in the order of the file.
 
         Blocks of continued decks come first, so that the deck's own blocks override them. The caller knows the class of
         the keyword; it is not imported for a deck that lacks the keyword.
         """
-        modelled = self._modelled(section)
-        return ((Where(index, number), block) for index, number, block in modelled if block.keyword == keyword)
+        for index, number, block in self._modelled(section):
+            if block.keyword == keyword:
+                yield Where(index, number), block
 
     def blocks_with(self, fact: str, section: str = "MODEL") -> list[tuple[Where, Any]]:
         """Return the modelled blocks whose declaration has a flag of `Facts`, in the order of `blocks`."""

@@ -70,7 +70,7 @@ def _tokens(written: str) -> Iterator[Found]:
     """Yield the tokens of a text, without blanks and punctuation."""
     tree = parse(Source("", written))
     text = tree.source.unified
-    for _, section, block in tree.spots:
+    for _, section, block, _ in tree.spots:
         if block:
             known = block.name in catalogue.keywords()
             yield trimmed(text, *block.head.span), Keyword if known else Keyword.Pseudo

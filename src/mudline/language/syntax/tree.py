@@ -90,12 +90,9 @@ class Spot(NamedTuple):
 
     where: Where
     section: RawSection
-    block: RawBlock | None = None
-
-    @property
-    def part(self) -> RawBlock | RawSection:
-        """The block, or else the section, with its `*` or `$` line and the lines below it."""
-        return self.block or self.section
+    block: RawBlock | None
+    part: RawBlock | RawSection
+    """The block, or else the section, with its `*` or `$` line and the lines below it."""
 
     @property
     def keyword(self) -> str:
@@ -129,7 +126,7 @@ class SyntaxTree:
     def spots(self) -> list[Spot]:
         """Sections and blocks in the order of the text; the preamble, with section -1, comes first."""
         return [
-            Spot(Where(index, number), section, block)
+            Spot(Where(index, number), section, block, block or section)
             for index, section in enumerate((self.preamble, *self.sections), -1)
             for number, block in enumerate((None, *section.blocks), -1)
         ]

@@ -100,8 +100,18 @@ class Context:
             self.unread |= {block.keyword for where, _, block in self.deck.every_block() if self.deck.lost(where)}
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
-        """Return `Deck.blocks` of the evaluated deck."""
-        return list(self.deck.blocks(keyword, section))
+        """Return `Deck.blocks` of the evaluated deck, found once for all callers."""
+        return self.placed.get((section, keyword), ())
+
+    @cached_property
+    def placed(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+        """Blocks that are read, by section and keyword; those of continued decks come first."""
+        blocks: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
+        own = len(self.deck.own_sections)
+        for where, section, block in sorted(self.deck.every_block(), key=lambda placed: placed[0].section < own):
+            if type(block) is not Opaque:  # isinstance of a model takes several times as long
+                blocks.setdefault((section, block.keyword), []).append((where, block))
+        return blocks
 
     @cached_property
     def names(self) -> dict[Names, NamesOfKind]:

@@ -172,7 +172,7 @@ def _curves(block: Block, where: Where) -> Iterator[SceneCurve]:
         names, title = list[str](), where
         for end in range(2, len(path), 2):  # the records on the way to the table: a field and a number each
             part = block.at(path[:end])[1]
-            settings = [(each, _given(part, each)) for each in record_schema(type(part)).slots if each.key]
+            settings = [(each, _given(part, each)) for each in record_schema(type(part)).keys.values()]
             if given := [(each, value) for each, value in settings if value is not None]:
                 first, value = min(given, key=lambda each: each[0].about.names is not Names.SET)
                 names.append(_written(first, value))

@@ -36,7 +36,7 @@ from mudline.tools.lsp.places import Occurrence, Site, at, equation_spans, site
 def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     """Return the help on an offset, in Markdown; None if there is none."""
     origin = analysis.origin
-    _, section, block = spot = origin.tree.at(offset)
+    _, section, block, _ = spot = origin.tree.at(offset)
     leaf = spot.part.head
     if leaf is not None and leaf.span.start <= offset < leaf.span.end:
         head = keyword_help(block.name, section.name) if block else section_help(section.name)

@@ -110,7 +110,7 @@ def _parameters(read: ReadBlock, path: Path) -> Iterator[Occurrence]:
 def _passed_through(origin: TextOrigin) -> Iterator[Occurrence]:
     """Yield the sets that SET= names in blocks whose lines are not read."""
     text = origin.source.unified
-    for where, _, block in origin.tree.spots:
+    for where, _, block, _ in origin.tree.spots:
         for leaf in block.leaves if block and where[:2] not in origin.read else ():
             if leaf.kind is LeafKind.SETTING and first_key(text, leaf.span) == _SET:
                 value = read_line(text, leaf.span).groups[0].fields[0]
@@ -173,7 +173,7 @@ class Site(NamedTuple):
 def site(deck: Deck, offset: int) -> Site | None:
     """Return the value at an offset of a deck in keyword text, also if its KEY= is there."""
     origin = cast("TextOrigin", deck.origin)
-    where, _, raw = origin.tree.at(offset)
+    where, _, raw, _ = origin.tree.at(offset)
     read = origin.read.get(where[:2])
     if read is None or raw is None:
         return None
