@@ -64,6 +64,16 @@ def test_results_that_no_run_stores(start: str, expected: list[tuple[str, int, i
     assert found(f"{OCEAN}{stored}", "TIM007") == []
 
 
+def test_a_wave_or_a_step_that_is_not_usual_is_told_once() -> None:
+    """What is said of the step, the ramp and the height of such a wave follows from it."""
+    unusual = ("UNT007", "TIM003", "TIM004", "WAV002")
+    exchanged = run("0, 100, 0.1, 10", "*WAVE-STOKES\n 90.0, 0.5\n")
+    assert [one[0] for one in found(exchanged, *unusual)] == ["UNT007"]
+    assert [one[0] for one in found(run("0, 100, 10, 0.1"), *unusual)] == ["UNT007"]
+    turned = run("0, 100, 1, 10", "*WAVE-STOKES\n 3.0, 10.0, 1800.0\n")  # its period is right
+    assert [one[0] for one in found(turned, *unusual)] == ["TIM004", "UNT007"]
+
+
 @pytest.mark.parametrize(
     ("profile", "expected"),
     [

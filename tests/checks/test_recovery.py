@@ -204,7 +204,7 @@ def test_decimal_commas_of_a_row_with_too_many_fields_are_an_error() -> None:
     (one,) = found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))
     assert (one.code, one.severity) == ("SYN015", Severity.ERROR)
     assert one.fix is not None
-    assert [edit.text for edit in one.fix.edits] == ["0.5", "20000.5"]
+    assert [edit.text for edit in one.fix.edits] == ["0.5, 20000.5"]
 
 
 def test_the_severity_of_the_configuration_holds_for_the_cause() -> None:

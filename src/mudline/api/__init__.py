@@ -18,7 +18,7 @@ from mudline.basics.arguments import expect, expect_word, given_path, read_only,
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.checks.configuration import Configured
-from mudline.checks.engine import lint_bytes, naming_causes, readable
+from mudline.checks.engine import lint_bytes, naming_causes
 from mudline.checks.registry import select as _chosen
 from mudline.language.deck import model
 from mudline.language.deck.forms import KEYWORD, form_of
@@ -98,8 +98,9 @@ class Deck(TypedDeck):
         Raises:
             DeckError: the deck has errors on which a result depends.
         """
-        with naming_causes(self):
-            return Scene(scenes.resolve(self.alone.placed()).require())
+        deck = self.alone.placed()
+        with naming_causes(deck):
+            return Scene(scenes.resolve(deck).require())
 
 
 class Scene:
@@ -431,7 +432,7 @@ def content_as(deck: Deck, name: str) -> bytes:
 
 def public(deck: model.Deck) -> Deck:
     """Return the public form of a deck; raises DeckError if something in it could not be read."""
-    return Deck(**vars(readable(deck)))
+    return Deck(**vars(deck.require()))
 
 
 def given_rules(select: Iterable[str], ignore: Iterable[str]) -> tuple[Rule, ...]:

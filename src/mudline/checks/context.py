@@ -11,17 +11,15 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.basics.spelling import Effort, meant_names
 from mudline.editing.variations.names import misspelt_actions, undefined_parameters, undefined_variations
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck, Origin
-from mudline.language.deck.parameters import DEFINING, name_key
+from mudline.language.deck.parameters import DEFINING
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import Blocks, Code, Problem, Repair, Severity, Span, Where
+from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
 from mudline.language.keywords.catalogue import holds_in_soil
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
-from mudline.language.keywords.values import Names
 from mudline.language.syntax.tree import RawBlock
 from mudline.model.scene.model import Scene, resolve
 
@@ -45,7 +43,6 @@ class LintContext:
     fixing: bool = False
     text: TextOrigin | None = field(init=False, default=None)
     _made: dict[object, Any] = field(default_factory=dict, repr=False)
-    _effort: Effort = field(default_factory=Effort, repr=False)
 
     def __post_init__(self) -> None:
         """Take the keyword text of a document."""
@@ -84,26 +81,8 @@ class LintContext:
         """Problems from reading and resolving the deck, and from the rules that block, by code."""
         found: dict[str, list[Problem]] = {}
         for problem in chain(self.scene.findings, of_variations(self.deck)):
-            lacks_name = problem.lacks and problem.weight is Severity.ERROR and not problem.lacks.isdecimal()
-            found.setdefault(problem.code.code, []).append(self._renamed(problem) if lacks_name else problem)
+            found.setdefault(problem.code.code, []).append(problem)
         return found
-
-    def _renamed(self, problem: Problem) -> Problem:
-        """Return an undefined name with the repair that writes the one defined name that can be meant."""
-        span = self.text.span_of(problem) if self.text else None
-        known = self._names_for.get(problem.where, {})
-        near = meant_names(name_key(problem.lacks), known, self._effort)
-        if span is None or len(near) != 1:
-            return problem
-        name = known[near[0]]
-        return replace(problem, repair=Repair("unsafe", f"write {name}", ((span, name),)))
-
-    @cached_property
-    def _names_for(self) -> dict[Where | None, dict[str, str]]:
-        """Defined names of the kind of each name that the deck uses, by its place."""
-        names = self.scene.context.names
-        known = {kind: names[Names.SET if kind is Names.SUBSET else kind].known for kind in names}
-        return {use.where: known[kind] for kind in names for use in names[kind].used}
 
     def once(self, make: Callable[[LintContext], T]) -> T:
         """Return the result of a function of this deck, computed once for all rules that ask."""

@@ -34,6 +34,7 @@ from mudline.language.diagnostics import (
     Severity,
     strongest,
 )
+from mudline.language.keywords.contents import repeated_set
 from mudline.language.keywords.model import Block
 from mudline.language.rules import Rule, findings
 
@@ -103,7 +104,7 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     comments of the deck suppress are included.
     """
     meant: Recovered | None = None
-    if context.text and (may_recover(context.deck) or context.scene.lacks_curves):
+    if context.text and (may_recover(context.deck) or context.scene.lacks):
         from mudline.checks.recovery.engine import recovered  # noqa: PLC0415 - many decks do without
 
         meant = recovered(context, {rule.code.code for rule in chosen}, suppress=suppress)
@@ -174,6 +175,8 @@ def may_recover(deck: Deck) -> bool:
             return True
         facts = block.facts
         if facts.defines and (count[block.keyword] > 1 or not all(map(count.__contains__, facts.beside))):
+            return True
+        if facts.later_wins and repeated_set(block):
             return True
     return False
 

@@ -15,7 +15,7 @@ from itertools import chain
 from typing import NamedTuple
 
 from mudline.checks.context import LintContext, also_in, read_deck, read_once
-from mudline.checks.recovery import lines
+from mudline.checks.recovery import lines, values
 from mudline.checks.recovery.lines import Blocks, Correction, start_of
 from mudline.checks.rules.keywords import LEG001
 from mudline.checks.suppression import suppressions
@@ -151,6 +151,12 @@ def recovered(context: LintContext, codes: Collection[str], *, suppress: bool) -
             break
         trials = round_.trials
         reported = [one for one in found.context.deck.problems if one.code.code in codes]
+    if found.context.scene.lacks:
+        late = values.scene_corrections(found.context)
+        wanted = [one for one in late if one.cause.code.code in codes]
+        if hiding:
+            wanted = [one for one in wanted if hiding.split([*found.as_written([one.cause])], ())[0]]
+        found.take(wanted)
     return found if found.steps else None
 
 
@@ -285,17 +291,6 @@ def before_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Cor
     yield Correction(outside[start], tuple(edits), Span(start, end), message, certain=True)
 
 
-def repaired_rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Yield the repairs of rows as corrections: commas, semicolons, letters in whole numbers, indented comments.
-
-    A real number that cannot be read stays unknown: nothing else in the deck depends on it.
-    """
-    for problem in problems:
-        edits = tuple(TextEdit(*edit) for edit in problem.repair.edits) if problem.repair else ()
-        if edits and not (problem.code is SYN002 and "." in edits[0].text):
-            yield Correction(problem, edits, blocks.text.source.line_around(edits[0].span.start), certain=True)
-
-
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
 """Faults of lines that belong to another keyword."""
 
@@ -304,7 +299,10 @@ _FIRST = (
     Recovery(before_sections, (SYN007,)),
     Recovery(lines.stars, (*_OF_FOREIGN_LINES, SYN011, SYN013, SYN016), always=True),
     Recovery(lines.legal_lines, (*_OF_FOREIGN_LINES, SYN005), always=True),
-    Recovery(repaired_rows, (SYN001, SYN002, SYN003, SYN015)),
+    Recovery(values.numbers, (SYN002,)),
+    Recovery(values.rows, (SYN001, SYN003)),
+    Recovery(values.indented_comments, (SYN001, SYN002, SYN003)),
+    Recovery(values.decimal_commas, (SYN015,)),
 )
 RECOVERIES = (_FIRST, (Recovery(lines.keyword_lines, _OF_FOREIGN_LINES),))
 """All correctors in the order in which they are called; the last one gets problems without a correction."""

@@ -13,6 +13,7 @@ from functools import cache, cached_property, lru_cache
 from itertools import pairwise
 
 from mudline.checks.context import ROW_NUMBER
+from mudline.checks.rules.coverage import SBD008
 from mudline.language.codes.contact import SBD006
 from mudline.language.codes.fields import SYN002, SYN003, SYN016
 from mudline.language.codes.lines import SYN001, SYN013
@@ -22,7 +23,7 @@ from mudline.language.deck.parameters import name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.contents import is_choice, kinds_of, opened
+from mudline.language.keywords.contents import is_choice, kinds_of, opened, repeated_set
 from mudline.language.keywords.model import Block, record_schema
 from mudline.language.keywords.reader import ReadBlock, all_keys, reads, schemas_of
 from mudline.language.keywords.values import Facts, Kind, Names
@@ -98,6 +99,11 @@ class Blocks:
         self.blocks = [(spot.section.name, spot.block) for spot in text.tree.spots if spot.block]
         self.keywords = {block.name for _, block in self.blocks}
         self._missing: dict[Names, list[str]] = {}
+
+    def declared_at(self, offset: int) -> type[Block] | None:
+        """Return the declaration of the block around an offset; None if its lines are not read."""
+        spot = self.at(offset)
+        return catalogue.block_class(spot.section.name, spot.keyword)
 
     @cached_property
     def _names(self) -> list[NamedPlace]:
@@ -303,8 +309,8 @@ def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correct
 def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Iterator[Problem]:
     """Yield the places in a block where lines of another keyword may begin, with the start of their message.
 
-    They begin with the name of a curve that is not defined, a number that the block has above, or a line that the
-    block passes through.
+    They begin with the name of a curve that is not defined, or a number that the block has above; otherwise with a set
+    that is given a second time with other values, or a line that the block passes through.
     """
     text = blocks.text
     unified = text.source.unified
@@ -323,10 +329,15 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
             yield Problem(REF007, beginning, Span(*number.span(1)))
             return
         numbers.update(number.groups() if number else ())
-    for start in _foreign_lines(text, block, read):
+    # Rows fit many keywords.
+    by_settings = facts.later_wins and all(each.kind is LeafKind.SETTING for each in data_of(block.leaves))
+    path = repeated_set(read.model) if read and by_settings else ()
+    again = read.places.find(path) if read and path else None
+    for start in [again.start] if again else _foreign_lines(text, block, read):
         line = trimmed(unified, *text.source.line_around(start))
-        code = SBD006 if _is_telling(unified, line) else SYN001
-        yield Problem(code, "", line, Severity.WARNING)
+        beginning = f"*{block.name} has {unified[slice(*line)]} above, and " if again else ""
+        code = SBD008 if again else SBD006 if _is_telling(unified, line) else SYN001
+        yield Problem(code, beginning, line, Severity.WARNING)
 
 
 def _is_telling(unified: str, line: Span) -> bool:

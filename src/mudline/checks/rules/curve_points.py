@@ -10,7 +10,6 @@ import numpy as np
 from mudline.basics.limits import MOST_REPORTED
 from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.rules.curve_text import _exchange, plain_rows, removal, sorting
-from mudline.language.codes.fields import CRV003
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
@@ -130,39 +129,22 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
             yield Problem(CRV002, message, where=curve.point(index), repair=repair)
 
 
-@joint(CRV003, CRV004, CRV009, CRV010, CRV005)
-def of_one_curve(context: LintContext, found: Found) -> Iterator[Joined]:
-    """Join the findings of a curve under one cause: a point that is far off, exchanged columns, or falling forces.
-
-    So are those of points that begin again, as their own name is missing.
-    """
+@joint(CRV009, CRV010, CRV005)
+def of_one_curve(_: LintContext, found: Found) -> Iterator[Joined]:
+    """Join the findings of a curve under one cause: a point that is far off, exchanged columns, or falling forces."""
     of_curve: dict[Where, dict[str, list[Problem]]] = {}
     for code, problems in found.items():
         for problem in problems if code.startswith("CRV") else ():
             if problem.where is not None and "points" in problem.where.path:
                 curve = problem.where._replace(path=problem.where.path[: problem.where.path.index("points")])
                 of_curve.setdefault(curve, {}).setdefault(code, []).append(problem)
-    begun = {curve.point(at): curve for curve in context.scene.laws.curves if (at := _begins_again(curve))}
     for by_code in of_curve.values():
         falls = len(by_code.get("CRV005", ())) == 1 and {"CRV007", "CRV012"} <= by_code.keys()
         code = next((code for code in ("CRV009", "CRV010") if code in by_code), "CRV005" if falls else "")
-        message = ""
-        first = by_code[code][0] if code else None
-        for problem in (*by_code.get("CRV004", ()), *by_code["CRV003"]) if "CRV003" in by_code else ():
-            if problem.where in begun:
-                first, key = problem, "SET" if begun[problem.where].embedment else "CURVE"
-                message = f"the points begin again here: a line {key}= seems to be missing above this one"
-        if first is not None:
+        if code:
+            first = by_code[code][0]
             joined = [problem for problems in by_code.values() for problem in problems if problem is not first]
-            yield Joined(first, joined, message=message)
-
-
-def _begins_again(curve: SceneCurve) -> int:
-    """Return the point of a curve that goes back to its first ratio, if both parts rise; 0 for other curves."""
-    ratios = curve.points[:, 0].tolist()
-    back = [at for at in range(1, len(ratios)) if ratios[at] <= ratios[at - 1]]
-    again = len(back) == 1 and ratios[back[0]] == ratios[0] and min(back[0], len(ratios) - back[0]) > 1
-    return back[0] if again else 0
+            yield Joined(first, joined)
 
 
 @rule(CRV005)

@@ -10,6 +10,7 @@ from itertools import chain, takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
 from mudline.checks.context import Found, Joined, LintContext, joint, records_of
+from mudline.checks.rules.load_cases import TIM003, TIM004, WAV002
 from mudline.checks.rules.seabed_position import UNT006
 from mudline.language.codes.fields import SYN003
 from mudline.language.codes.lines import SYN001
@@ -249,6 +250,32 @@ def _lengths_fit(values: Sequence[object], columns: Sequence[FieldSpec], most: f
     complete = len(values) <= len(columns) and all(slot.name in values_by_name for slot in columns if slot.required)
     has_wall = numbers.get("di", 0.0) < numbers.get("do", math.inf)
     return complete and has_wall and max(lengths, default=0.0) <= most * min(lengths, default=0.0)
+
+
+_OF_WAVE = ("amplitude", "height", "period")
+"""Fields of a wave that the time step is compared with."""
+
+
+@joint(TIM003, TIM004, WAV002)
+def of_one_wave_or_step(context: LintContext, found: Found) -> Iterator[Joined]:
+    """Join findings to their cause: a wave or a time step that is itself unusual."""
+    rest = [one for code in (WAV002, TIM003, TIM004) for one in found.get(code.code, ())]
+    for cause in found.get(UNT007.code, ()):
+        at = cause.where
+        if at is None or not at.path:
+            continue
+        blocks = [block for section in context.deck.sections[at.section : at.section + 1] for block in section.blocks]
+        keyword = blocks[at.block].keyword if at.block < len(blocks) else ""  # of a deck with a section put in
+        wave = keyword.startswith("WAVE-") and at.path[-1] in _OF_WAVE
+        others = [
+            one
+            for one in rest
+            if one.where is not None
+            and (one.where[:2] == at[:2] or (wave and one.where.section == at.section and one.code is not WAV002))
+        ]
+        if others:
+            rest = [one for one in rest if one not in others]
+            yield Joined(cause, others)
 
 
 @joint(UNT004, UNT005, UNT006)

@@ -13,7 +13,6 @@ from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.reader import ReadBlock, all_keys
-from mudline.language.keywords.text import INDENTED_COMMENT
 from mudline.language.rules import rule
 from mudline.language.syntax.fields import FieldGroup, first_key, read_line, trimmed
 from mudline.language.syntax.rows import blank_separated, row_fields
@@ -32,6 +31,7 @@ STY007 = Code("STY007", "trailing-blank", Severity.INFO)
 
 _DATA = (LeafKind.RUN, LeafKind.SETTING, LeafKind.TEXT)
 
+INDENTED_COMMENT = re.compile(r"[ \t]++[Cc](?:[ \t]++[^ \t\r\n]|[-*=#_.~+]{2})")
 _SMALL = re.compile(r"[a-z]")
 _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
 

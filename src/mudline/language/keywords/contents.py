@@ -250,6 +250,19 @@ def set_slots(block: type[Block]) -> tuple[tuple[FieldSpec, FieldSpec], ...]:
     )
 
 
+def repeated_set(block: Block) -> Path:
+    """Return the path of the first element set that a block gives again with other values; () if there is none."""
+    for listed, named in set_slots(type(block)) if block.facts.later_wins else ():
+        by_name: dict[str, Part] = {}
+        for index, entry in enumerate(getattr(block, listed.name)):
+            name = getattr(entry, named.name, None)
+            if isinstance(name, str) and name:
+                first = by_name.setdefault(name.casefold(), entry)
+                if first is not entry and first != entry:
+                    return listed.json, index, named.json
+    return ()
+
+
 # ---------------------------------------------------------------------------------------------------- refused values
 
 

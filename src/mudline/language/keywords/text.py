@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import replace
-from itertools import accumulate, pairwise
+from itertools import pairwise
 
 from mudline.basics.short_repr import cut
 from mudline.basics.spelling import Effort, nearest
@@ -32,7 +32,6 @@ _MINUS = "\u2010\u2011\u2012\u2013\u2014\u2212\ufe63\uff0d"
 """Hyphens, dashes and minus signs of word processors."""
 _QUOTES = "\u2018\u2019\u201a\u201c\u201d\u201e\xab\xbb"
 """Quotes of word processors."""
-_MISREAD = str.maketrans("OolI", "0011")
 _BARE_EXPONENT = re.compile(r"([-+]?(?:[0-9]+\.[0-9]*|\.[0-9]+))([-+][0-9]{1,3})")
 """Number whose exponent has no letter, as Fortran writes exponents of three digits."""
 _BLANKS = "\xa0\u2007\u2009\u200b\u202f\ufeff"
@@ -71,7 +70,7 @@ def _number(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
             return _label(field, slot, problems)
         if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not looks_numeric(field.text):
             return field.text
-        raise UnreadableError(not_a_number(field.text, field.span, slot.label, slot.kind))
+        raise UnreadableError(not_a_number(field.text, field.span, slot.label))
     if slot.kind not in _WHOLE_KINDS:
         return number
     if not number.is_integer() or abs(number) > LARGEST_WHOLE:
@@ -139,8 +138,7 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
             and len(numbers) >= len(values) - names
             and _is_tight(*values[first : first + 2])
         ):
-            pairs = [end - 2 for end, width in zip(accumulate(widths), widths, strict=True) if width == 2]
-            return _two_fields(values, pairs, Severity.ERROR)
+            return _two_fields(values[first], values[first + 1], Severity.ERROR)
     return None
 
 
@@ -181,14 +179,9 @@ def _is_tight(first: Field, second: Field) -> bool:
     return first.start + len(first.text) + 1 == second.start
 
 
-def _two_fields(values: list[Field], pairs: list[int], severity: Severity | None = None) -> Problem:
-    """Return the problem of decimal commas, each between a field of `pairs` and the next one."""
-    halves = [(values[at], values[at + 1]) for at in pairs]
-    edits = tuple((one.span._replace(end=other.span.end), f"{one.text}.{other.text}") for one, other in halves)
-    (span, number), (first, second) = edits[0], halves[0]
-    repair = Repair("unsafe", f"write {', '.join(text for _, text in edits)}", edits)
-    message = f"decimal comma? {first.text},{second.text} is two fields here: write {number}"
-    return Problem(SYN015, message, span, severity, repair=repair)
+def _two_fields(first: Field, second: Field, severity: Severity | None = None) -> Problem:
+    message = f"decimal comma? {first.text},{second.text} is two fields here: write {first.text}.{second.text}"
+    return Problem(SYN015, message, first.span._replace(end=second.span.end), severity)
 
 
 def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
@@ -209,7 +202,7 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
         return None
     if any(kinds[place] not in _REAL for place in places):
         return None
-    return _two_fields(values, pairs)
+    return _two_fields(values[pairs[0]], values[pairs[0] + 1])
 
 
 def _is_split(values: list[Field], at: int) -> bool:
@@ -270,16 +263,11 @@ def cut_number(text: str) -> bool:
 
 
 def not_a_number(text: str, span: Span, label: str, kind: Kind | None = None) -> Problem:
-    """Return the problem of a field that is not a number, with a repair if the number is clear.
-
-    It is for characters of a word processor, and for letters that look like the digits of a whole number.
-    """
+    """Return the problem of a field that is not a number; characters of a word processor in a number are repaired."""
     if bare := _BARE_EXPONENT.fullmatch(text):
         repaired = f"{bare[1]}E{bare[2]}"
         message = f"{text!r} is not a number: if {bare[2]} is its exponent, write {repaired} for {label}"
         return Problem(SYN002, message, span, repair=Repair("unsafe", f"write {repaired}", ((span, repaired),)))
-    if kind in _WHOLE_KINDS and (digits := text.translate(_MISREAD)).isdecimal():
-        return Problem(SYN002, _fault(text, label, kind) + hint(digits), span, repair=instead(digits, span))
     plain = _plain(text)
     if not plain:
         return Problem(SYN002, _fault(text, label, kind), span)
@@ -320,8 +308,6 @@ _MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")
 _LETTER = re.compile(r"[^\W\d_]")
 _COMMENT = re.compile(r"[ \t]*(?:[#!;]|//|--(?![0-9.]))")
 """Beginning of a line that is a comment in other programs."""
-INDENTED_COMMENT = re.compile(r"[ \t]++[Cc](?:[ \t]++[^ \t\r\n]|[-*=#_.~+]{2})")
-"""Beginning of a line that looks like an indented comment."""
 _OF_FIELDS = frozenset({SYN002, SYN003, SYN005, SYN015, SYN016})
 _OF_LINES = _OF_FIELDS | {SYN001, SYN004}
 _NO_LINE = Span(0, 0)
@@ -370,7 +356,7 @@ def merge_per_line(text: str, problems: list[Problem]) -> list[Problem]:
 
 
 def _comments_named(text: str, problems: list[Problem]) -> list[Problem]:
-    """Return the problems of a text; those of a line that is a comment in other programs, or indented, are merged."""
+    """Return the problems of a text; those of a line that is a comment in other programs are merged into one."""
     if not problems:
         return problems
     kept: list[Problem] = []
@@ -388,11 +374,6 @@ def _comments_named(text: str, problems: list[Problem]) -> list[Problem]:
             last = line
             message = f"{shown(text[slice(*line)])} is read as data: begin a comment with C and a space"
             kept.append(replace(problem, message=message, span=line, repair=None))
-        elif problem.weight is Severity.ERROR and INDENTED_COMMENT.match(text, start, line.end):
-            last = line
-            words = "an indented line is data: if it is meant as a comment, put its C in column 1"
-            repair = Repair("unsafe", "put the C in column 1", ((Span(start, line.start), ""),))
-            kept.append(replace(problem, message=f"{problem.message}; {words}", repair=repair))
         else:
             kept.append(problem)
     return kept

@@ -80,6 +80,7 @@ class Context:
 
     unread: keywords with a part that could not be used and defines nodes, elements, sets or curves.
     doubtful: first and last number that a faulty GEN= may have been meant to define, by keyword.
+    excused: undefined numbers that an unreadable number of a node or an element may be, by its place.
     """
 
     deck: EvaluatedDeck
@@ -87,7 +88,8 @@ class Context:
     problems: list[Problem] = field(default_factory=list)
     unread: set[str] = field(default_factory=set)
     doubtful: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
-    _misread: dict[str, list[str]] = field(default_factory=dict)
+    excused: dict[Where, set[int]] = field(default_factory=dict)
+    _misread: dict[str, list[tuple[Where, str]]] = field(default_factory=dict)
     _reported: dict[str, int] = field(default_factory=dict)
     _placeless: set[tuple[int, int]] = field(default_factory=set)
     _out_of_sight: dict[tuple[str, str], _Uses] = field(default_factory=dict)
@@ -186,10 +188,13 @@ class Context:
         `lacks` is the missing object, None if it is not a single one. A number is not missing if an unreadable number
         becomes equal to it by one edit.
         """
+        if isinstance(lacks, int):
+            places = [at for at, written in self._misread.get(keyword, ()) if edits(written, str(lacks), 1) <= 1]
+            for at in places:
+                self.excused.setdefault(at, set()).add(lacks)
+            if places:
+                return
         number = lacks if isinstance(lacks, int) else None
-        misread = self._misread.get(keyword, ()) if number is not None else ()
-        if any(edits(written, str(number), 1) <= 1 for written in misread):
-            return
         unread = (name for name in self.external_definers if not (is_read_definer(name) or makes_labels(name)))
         definer = next((name for name in unread if self._definition_by(name, keyword, number)), "")
         if keyword in _NUMBERED and definer:
@@ -232,7 +237,7 @@ class Context:
         if not written or written.startswith("=") or "," in written:
             self.unread.add(keyword)
         else:
-            self._misread.setdefault(keyword, []).append(written)
+            self._misread.setdefault(keyword, []).append((where, written))
 
     def report_out_of_sight(self) -> None:
         """Add, once for each unread keyword, how often the deck uses objects that it may define."""

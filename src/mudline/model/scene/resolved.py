@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -14,6 +15,7 @@ from mudline.basics.arguments import read_only
 from mudline.basics.limits import SHOWN_LETTERS
 from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, listed_numbers
 from mudline.language.codes import RUN001
+from mudline.language.codes.references import REF001
 from mudline.language.deck.parameters import EvaluatedDeck, folded, name_key
 from mudline.language.diagnostics import DeckError, Problem, Where
 from mudline.language.keywords import catalogue
@@ -27,7 +29,7 @@ from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import MeshElements
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered, first_of
-from mudline.model.scene.references import CURVES
+from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import SectionTable, Surroundings, read_surroundings
 from mudline.model.scene.sets import Sets
@@ -153,10 +155,13 @@ class ResolvedDeck:
         return bool(len(self.element_ids)) and not self.set_table.everything.open
 
     @property
-    def lacks_curves(self) -> bool:
-        """True if the deck uses a curve that it does not define."""
-        kinds = self.context.names_of({Names.CURVE, *CURVES})
-        return any(name_key(use.name) not in names.defined for names in kinds for use in names.used)
+    def lacks(self) -> bool:
+        """True if the deck uses something that it does not define, or gives a curve two forces at one ratio."""
+        curves = {folded(each.name) for each in self.laws.curves if not each.embedment}
+        clashing = any(each.curve is not None and not each.whole for each in self.laws.curves)
+        missing = any(each.lacks for each in self.noticed) or not self.referenced <= curves
+        others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
+        return missing or clashing or bool(self.context.excused) or any(True for _ in others)
 
     @cached_property
     def referenced(self) -> set[str]:
