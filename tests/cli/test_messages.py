@@ -22,7 +22,9 @@ FILES = {
     "empty.keyxm": "$MODEL\n",
     "gone.keyxm": CLEAN.replace(BED, f"*SEABED PROFILE\n TYPE=2D\n FILE=gone.dat\n{BED}"),
     "linear.keyxm": LINEAR,
-    "many.keyxm": CLEAN.replace(" 2, -0.1, 10.0\n", "".join(f" {number}, x, 10.0\n" for number in range(10, 60))),
+    "many.keyxm": CLEAN.replace(
+        " 2, -0.1, 10.0\n", "".join(f" {number}, {'xy'[number % 2]}, 10.0\n" for number in range(10, 60))
+    ),
     "mean.keyxm": CLEAN.replace(" 2, -0.1, ", " 2, 0.3, "),
     "misspelt.keyxm": CLEAN.replace("PROPERTIES", "PROPERTEIS"),
     "more.keyxm": CLEAN.replace("*ELEMENT\n", f"*NODE\n{NODES}*ELEMENT\n"),
