@@ -17,10 +17,11 @@ from mudline.language.deck.model import Deck, Origin
 from mudline.language.deck.parameters import DEFINING
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
-from mudline.language.keywords.catalogue import holds_in_soil
+from mudline.language.keywords.catalogue import hold_in_soil
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.language.syntax.tree import RawBlock
+from mudline.model.scene.context import placed_blocks
 from mudline.model.scene.model import Scene, resolve
 
 T = TypeVar("T")
@@ -64,7 +65,11 @@ class LintContext:
 
     def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """Return `Deck.blocks` of the deck itself, with its equations."""
-        return list(self.deck.blocks(keyword, section))
+        return self._written.get((section, keyword), ())
+
+    @cached_property
+    def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+        return placed_blocks(self.deck)
 
     @cached_property
     def keywords(self) -> set[str]:
@@ -74,7 +79,7 @@ class LintContext:
     @cached_property
     def in_soil(self) -> bool:
         """True if the model has soil springs."""
-        return any(map(holds_in_soil, self.keywords))
+        return hold_in_soil(self.keywords)
 
     @cached_property
     def noticed(self) -> dict[str, list[Problem]]:

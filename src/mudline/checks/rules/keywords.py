@@ -15,7 +15,7 @@ from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Blocks, Code, DeckError, Problem, Repair, Severity, Where
 from mudline.language.keywords.catalogue import is_extension
 from mudline.language.keywords.contents import is_name, is_read
-from mudline.language.keywords.model import Block, FieldSpec
+from mudline.language.keywords.model import Block, FieldSpec, has_fields
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.edits import with_line_ends
@@ -234,7 +234,7 @@ def given_twice(context: LintContext) -> Iterator[Problem]:
                 message = f"*{block.keyword} already stands in this ${section.name}: remove one of the two"
                 yield Problem(REF022, message, where=Where(i, j))
             seen.add(block.keyword)
-            for path, slot, value in block.walk(_is_unique):
+            for path, slot, value in block.walk(_is_unique) if has_fields(type(block), _is_unique) else ():
                 known = is_name(value) or (isinstance(value, int | float) and math.isfinite(value))
                 # The list of a block may go on in the next one, a list in a record may not.
                 of_list = path[:-2] if len(path) <= len(("records", 0, "field")) else (j, *path[:-2])

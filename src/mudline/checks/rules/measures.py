@@ -16,7 +16,7 @@ from mudline.checks.rules.slips import UNITLESS, DeckUnits, is_placeholder, mean
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.contents import names_given
-from mudline.language.keywords.model import FEWEST_POINTS, Block, FieldSpec, Rows, record_schema
+from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import (
     BED,
@@ -186,7 +186,7 @@ def _metal(of: Numbers) -> bool:
 
 def _waves_in_time(of: Numbers) -> bool:
     in_time = all(block.type_ != "STATIC" for _, block in of.context.blocks("ANALYSIS TYPE", "LOAD CASE"))
-    return in_time and any(_waves(of.context))
+    return in_time and any(keyword.startswith("WAVE-") for _, keyword in of.context.scene.context.placed)
 
 
 CONDITIONS: Mapping[str, Callable[[Numbers], bool]] = {
@@ -264,15 +264,11 @@ def _on_vessels(context: LintContext) -> dict[int, str]:
     return held_freedoms(context.scene, [context.scene.deck])[1]
 
 
-def _waves(context: LintContext) -> list[Block]:
-    blocks = (block for _, _, block in context.scene.deck.every_block())
-    return [block for block in blocks if isinstance(block, Block) and block.keyword.startswith("WAVE-")]
-
-
 def _shortest_period(context: LintContext) -> float:
     """Return the shortest wave period of a load case, for random seas the peak period; infinite without waves."""
-    walked = (place for block in _waves(context) for place in block.walk())
-    values = ((slot.about.usual, value) for _, slot, value in walked if slot.about.usual)
+    placed = context.scene.context.placed.items()
+    blocks = (block for (_, keyword), listed in placed if keyword.startswith("WAVE-") for _, block in listed)
+    values = ((slot.about.usual, value) for block in blocks for _, slot, value in block.walk() if slot.about.usual)
     periods = (
         1.0 / value if usual is SEA_FREQUENCY else value
         for usual, value in values

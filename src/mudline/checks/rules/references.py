@@ -16,7 +16,7 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
-from mudline.language.keywords.model import FieldSpec, Part
+from mudline.language.keywords.model import FieldSpec, Part, has_fields
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import DataFile, Names, is_unknown, known_name
 from mudline.language.rules import rule
@@ -413,7 +413,7 @@ def _fault(named: _Named, path: Path) -> str:
 def _files(context: LintContext) -> Iterator[_Named]:
     """Yield the files of the deck itself whose contents are known."""
     for where, _, block in context.deck.alone.every_block():
-        for path, slot, name in block.walk(_holds_data):
+        for path, slot, name in block.walk(_holds_data) if has_fields(type(block), _holds_data) else ():
             if isinstance(name, str) and name:
                 yield _Named(where._replace(path=path), block.at(path[:-1])[1], slot, name)
 

@@ -32,10 +32,9 @@ from mudline.checks.rules.slips import (
     likely_slips,
 )
 from mudline.language.codes.fields import SYN015
-from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Code, Problem, Where
 from mudline.language.keywords.contents import in_words
-from mudline.language.keywords.model import FieldSpec, Part, Path, Rows, fields_of, record_schema
+from mudline.language.keywords.model import FieldSpec, Part, Path, Rows, fields_of, has_fields, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.usual import BENT, Usual
@@ -73,8 +72,8 @@ def _by_code(context: LintContext) -> dict[str, list[Problem]]:
 
 
 def _of_deck(deck: Numbers) -> list[Judged]:
-    read = ((where, block) for where, _, block in deck.context.scene.deck.every_block() if type(block) is not Opaque)
-    own = [judged for where, block in read for judged in _inside(deck, block, where)]
+    placed = deck.context.scene.context.placed.values()
+    own = [judged for blocks in placed for where, block in blocks for judged in _inside(deck, block, where)]
     return [*own, *_in_files(deck)]
 
 
@@ -110,7 +109,8 @@ class Judged(NamedTuple):
 def _inside(deck: Numbers, block: Part, where: Where) -> Iterator[Judged]:
     """Yield unusual values in a block, merged to one finding of each code for a part."""
     parts: dict[Path, Part] = {(): block}
-    parts |= {path: part for path, _, part in block.walk(_is_judged) if isinstance(part, Part)}
+    if has_fields(type(block), _is_judged):
+        parts |= {path: part for path, _, part in block.walk(_is_judged) if isinstance(part, Part)}
     for path, part in parts.items():
         own, listed = _judged(type(part), deck.units)
         suspects = [
@@ -122,7 +122,7 @@ def _inside(deck: Numbers, block: Part, where: Where) -> Iterator[Judged]:
         tables = [(slot, value) for slot in listed if (value := getattr(part, slot.name, None))]
         if suspects or tables:
             holder = parts[path[: -2 if isinstance(path[-1], int) else -1]] if path else None
-            place, columns = where.inside(*path), record_schema(type(part)).slots
+            place, columns = where.inside(*path) if path else where, record_schema(type(part)).slots
             of = replace(deck, part=part, holder=holder, where=place, columns=columns)
             yield from _of_row([entry for slot, value in suspects for entry in _compared(of, slot, value, slot.json)])
             for slot, table in tables:

@@ -25,7 +25,7 @@ from mudline.language.diagnostics import (
     Severity,
     Where,
 )
-from mudline.language.keywords.contents import Role, every_name_given, gives_names, kept_places
+from mudline.language.keywords.contents import Role, every_name_given, gives_names, keeps_lines, kept_places
 from mudline.language.keywords.fields import Comment
 from mudline.language.keywords.model import Block, FieldSpec, Part
 from mudline.language.keywords.values import Names, Text
@@ -326,7 +326,9 @@ class Deck:
 
 def raw_lines(block: Block | Opaque) -> list[str]:
     """Return the lines of a block that are passed through: all without a model, else those that the model keeps."""
-    return block.lines if isinstance(block, Opaque) else [line for _, line in kept_places(block)]
+    if isinstance(block, Opaque):
+        return block.lines
+    return [line for _, line in kept_places(block)] if keeps_lines(type(block)) else []
 
 
 def comment_texts(deck: Deck) -> Iterator[str]:

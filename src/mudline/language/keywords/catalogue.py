@@ -226,9 +226,9 @@ def _of_seabed(keyword: str) -> bool:
     return any(entry.subject == "seabed" for entry in entries(keyword))
 
 
-def holds_in_soil(keyword: str) -> bool:
-    """Return True if a keyword defines soil springs."""
-    return facts_of(keyword).soil_springs
+def hold_in_soil(keywords: Iterable[str]) -> bool:
+    """Return True if one of some keywords defines soil springs."""
+    return any(facts_of(keyword).soil_springs for keyword in keywords)
 
 
 @cache

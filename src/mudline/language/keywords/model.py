@@ -428,6 +428,12 @@ def _leading(part: type[Part], wanted: FieldFilter | None) -> tuple[tuple[FieldS
     return tuple((slot, own) for slot, own in slots if own or any(_leading(inner, wanted) for inner in slot.parts))
 
 
+@cache
+def has_fields(part: type[Part], wanted: FieldFilter) -> bool:
+    """Return True if a part or an inner part has a wanted field: without one, a walk is not needed."""
+    return bool(_leading(part, wanted))
+
+
 def fields_of(part: type[Part]) -> Iterator[FieldSpec]:
     """Yield the fields of a part and of its inner parts, including the columns of tables."""
     for slot in record_schema(part).slots:

@@ -19,7 +19,7 @@ from mudline.basics.short_repr import counted, cut
 from mudline.language.codes.contact import GEO005, GEO017, RUN003, RUN004, RUN005, SBD006
 from mudline.language.codes.lines import SYN009
 from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
-from mudline.language.keywords.catalogue import holds_in_soil
+from mudline.language.keywords.catalogue import hold_in_soil
 from mudline.model.contact import ContactModel, ContactResult, LawKind
 from mudline.model.contact.columns import kept
 from mudline.model.contact.result import ResultPart
@@ -370,7 +370,7 @@ class ContactWatch:
         """Yield a warning about elements in contact that float, or about all if nothing is in contact and all float."""
         scene = self._scene
         floats = self._lightest[self._elements] < 0.0
-        if any(map(holds_in_soil, scene.deck.keywords())):  # springs of the soil hold elements without a seabed law
+        if hold_in_soil(scene.deck.keywords()):  # springs of the soil hold elements without a seabed law
             floats &= scene.law[self._elements] != LawKind.NONE
         light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
         if not light.size or self._left_out:

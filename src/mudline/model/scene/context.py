@@ -107,13 +107,8 @@ class Context:
 
     @cached_property
     def placed(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-        """Blocks that are read, by section and keyword; those of continued decks come first."""
-        blocks: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
-        own = len(self.deck.own_sections)
-        for where, section, block in sorted(self.deck.every_block(), key=lambda placed: placed[0].section < own):
-            if type(block) is not Opaque:  # isinstance of a model takes several times as long
-                blocks.setdefault((section, block.keyword), []).append((where, block))
-        return blocks
+        """Blocks of every section and keyword."""
+        return placed_blocks(self.deck)
 
     @cached_property
     def names(self) -> dict[Names, NamesOfKind]:
@@ -401,3 +396,13 @@ class Context:
     def labels(self) -> dict[str, str]:
         """Possible labels of nodes that lines make, and those of `*LABEL`, by their folded form."""
         return first_written(self.deck, texts_in) | labels_given(self.written, Names.NODE)
+
+
+def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+    """Return the same as `Deck.blocks` for every section and keyword."""
+    blocks: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
+    own = len(deck.own_sections)
+    for where, section, block in sorted(deck.every_block(), key=lambda placed: placed[0].section < own):
+        if type(block) is not Opaque:  # isinstance of a model takes several times as long
+            blocks.setdefault((section, block.keyword), []).append((where, block))
+    return blocks

@@ -16,7 +16,7 @@ from mudline.language.codes.fields import CRV001, CRV003, CRV011
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Blocks, Problem, Where
 from mudline.language.keywords.contents import is_curve
-from mudline.language.keywords.model import Block, FieldSpec, Part, Rows, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, Part, Rows, has_fields, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
@@ -104,7 +104,7 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve], l
     others = [
         _made(context, curve)
         for where, _, block in context.deck.every_block()
-        if type(block) is not Opaque
+        if type(block) is not Opaque and has_fields(type(block), is_curve)
         for curve in _curves(cast("Block", block), where)
         if not curve.of_seabed
     ]

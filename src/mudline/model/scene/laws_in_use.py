@@ -13,7 +13,7 @@ from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Problem, Where
 from mudline.language.keywords.catalogue import (
-    holds_in_soil,
+    hold_in_soil,
     is_extension,
     is_superseded,
     sections_of,
@@ -76,7 +76,7 @@ def missing_laws(scene: ResolvedDeck, free: Indices, unknown: list[UnknownKeywor
         yield Doubt(SYN009, message, where, bare, _brief(bare) if bare.size else f"*{cut(keyword, 40)} is not known")
     keywords = scene.deck.keywords()
     inside = some and not keywords.isdisjoint(_PIPE_IN_PIPE)
-    if bare.size and not unknown and not inside and not any(map(holds_in_soil, keywords)):
+    if bare.size and not unknown and not inside and not hold_in_soil(keywords):
         yield _doubt(_bare(scene, bare), bare)
 
 

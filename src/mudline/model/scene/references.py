@@ -147,8 +147,9 @@ def check_numbers(context: Context, kind: Names, known: Numbered, named: Sequenc
     """
     is_node, keyword = kind is Names.NODE, kind.name
     code, blocks = (REF006, None) if is_node else (REF005, Blocks.NEVER)
-    shows = len(known) > 0 or keyword in context.deck.keywords()
-    labels = "LABEL" in context.deck.keywords() and not context.external_definers
+    keywords = context.deck.keywords()
+    shows = len(known) > 0 or keyword in keywords
+    labels = "LABEL" in keywords and not context.external_definers
     if is_node:
         labels = shows or bool(context.external_definers)
     for ident, where in named if labels else ():
@@ -265,7 +266,7 @@ class _Looking:
                     message = f"{shown(field.text)} is not a number: write {number}"
                     self._warn(SYN002, message, where.inside(*field.span))
             value = group.fields[0]
-            if not known or not value.text or value.text.startswith("=["):
+            if not known or not group.key or not value.text or value.text.startswith("=["):
                 continue
             place = where.inside(*value.span)
             if group.key == Names.SET.name:

@@ -163,11 +163,11 @@ class _SetReader:
                 name = known_name(entry.name)
                 if name is None:
                     context.unread.add("ELEMENT SETS")
-                elif name_key(name) == ALL:
+                elif (key := name_key(name)) == ALL:
                     message = "set ALL is predefined and holds every element: choose another name"
                     context.report(REF009, message, place.inside("name"))
                 else:
-                    self.definitions.setdefault(name_key(name), []).append((entry, place))
+                    self.definitions.setdefault(key, []).append((entry, place))
         for key, name in context.opaque_set_names.items():
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
