@@ -18,7 +18,7 @@ from mudline.basics.arguments import expect, expect_word, given_path, read_only,
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.checks.configuration import Configured
-from mudline.checks.engine import lint_bytes, naming_causes
+from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select as _chosen
 from mudline.language.deck import model
 from mudline.language.deck.forms import KEYWORD, form_of
@@ -98,9 +98,7 @@ class Deck(TypedDeck):
         Raises:
             DeckError: the deck has errors on which a result depends.
         """
-        deck = self.alone.placed()
-        with naming_causes(deck):
-            return Scene(scenes.resolve(deck).require())
+        return Scene(scenes.resolve(self.alone.placed()).require())
 
 
 class Scene:

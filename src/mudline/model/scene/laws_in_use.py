@@ -200,9 +200,12 @@ def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
     for grant in laws.set_laws:
         by_curve.setdefault(grant.curve, []).append(grant)
     followed = {laws.set_laws[index].curve for index in used}
+    last = {(curve.embedment, folded(curve.name)): number for number, curve in enumerate(laws.curves)}
     for number, curve in enumerate(laws.curves):
         grants = by_curve.get(number, [])
-        if grants and curve.name and number not in followed and not any(grant.set_.open for grant in grants):
+        if not grants or not curve.name or last[curve.embedment, folded(curve.name)] != number:
+            continue  # an earlier curve of the same name is reported with the later one
+        if number not in followed and not any(grant.set_.open for grant in grants):
             message = f"{_called(curve)} has no effect: {_reason(scene, grants[-1])}"
             yield Problem(SBD025, message, where=curve.title)
     yield from repeated_curves(scene)

@@ -280,7 +280,7 @@ def _findings(given: DeckFile, settings: LintSettings, context: LintContext | No
 
 def _finding(finding: Diagnostic, context: LintContext | None) -> dict[str, Any]:
     section = ""
-    if context is not None and (text := context.text):
+    if finding.line and context is not None and (text := context.text):
         spot = text.tree.at(text.source.line_span(finding.line).start)
         section = f"${spot.section.name}" if spot.section.head else ""
     row = as_object(finding) | {"section": section}

@@ -183,7 +183,7 @@ def _contact(content: dict[str, Any], units: str) -> Iterator[DisplayTable]:
         ("reaction over weight with contents", content["ratio"]),
     ]
     if deepest := content["deepest"]:
-        words = labelled(f"largest penetration, element {deepest['element']}", names.length)
+        words = labelled(f"largest depth, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
     notes = [_weight_note(content), *content["notes"]]
     title = f"Equilibrium of {_SHAPES[content['positions']]}"
