@@ -18,6 +18,7 @@ from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError
 from mudline.model.scene import restart
 from mudline.model.scene.model import Scene, resolve
+from mudline.model.scene.weights import stiffnesses
 from tests.checks.findings import CLAY, CURVES, PIPE, PROPERTIES
 
 STATIC = PIPE + "*ELEMENT SETS\n SET=Buried\n GEN=1, 4\n" + PROPERTIES + " STIFFNESS=Clay\n*SEABED STIFFNESS\n" + CLAY
@@ -95,6 +96,15 @@ def test_of_two_legacy_surfaces_that_of_the_deck_itself_holds(folder: Path) -> N
     assert found.resistance.values[0].friction == (0.3, 0.3)
     assert found.resistance.values[1].friction == (0.1, 0.1)
     assert found.seabed.slope == 5.0
+
+
+def test_a_stiffness_curve_of_the_deck_itself_holds(folder: Path) -> None:
+    curve = "*MOMENT-CURVATURE\n CURVE=K\n 0.0, 0.0\n {}, 0.1\n"
+    section = "*GEOMETRIC SETS\n OPTION=FLEXIBLE\n SET=ALL, EI=K\n , , 1.0E5, 1.0E8, 50.0, 0.1, 0.2, 0.3, 0.3\n"
+    (folder / "static.keyxm").write_text(PIPE + section + curve.format(100.0))
+    for own, expected in (("", 1000.0), ("$MODEL\n" + curve.format(900.0), 9000.0)):
+        found = scene(folder, own + DYNAMIC)
+        assert stiffnesses(found, found.section_table.sections[-1]).bending == pytest.approx(expected)
 
 
 def test_each_deck_has_its_own_parameters(folder: Path) -> None:

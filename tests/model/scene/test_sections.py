@@ -128,3 +128,13 @@ def test_a_section_that_could_not_be_read_leads_to_no_missing_diameter(lines: st
     codes = [code for _, code, _, _ in all_reported(GEOMETRY + lines + curve)]
     assert codes
     assert "SBD009" not in codes
+
+
+BEND = "*MOMENT-CURVATURE\n CURVE=K\n 0.0, 0.0\n {}, 0.1\n 150.0, 0.2\n"
+
+
+def test_the_stiffness_of_a_curve_is_unknown_if_a_point_cannot_be_read() -> None:
+    deck = GEOMETRY + " OPTION=FLEXIBLE\n SET=ALL, EI=K\n , , 1.0E5, 1.0E8, 50.0, 0.1, 0.2, 0.3, 0.3\n"
+    for load, expected in (("100.0", 1000.0), ("x", math.nan)):
+        scene = scene_of(deck + BEND.format(load))
+        assert stiffnesses(scene, scene.section_table.sections[0]).bending == pytest.approx(expected, nan_ok=True)

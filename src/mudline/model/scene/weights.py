@@ -179,10 +179,11 @@ def _modulus(scene: ResolvedDeck, section: Section, given: float, *settings: str
         return given
     keyword = STIFFNESS_CURVES.get(settings[0], BENDING_CURVES)
     curves = (each for each in scene.other_curves if each.keyword == keyword and folded(each.name) == folded(name))
-    points = next((each.points for each in curves), None)
-    if points is None or len(points) < FEWEST_POINTS:
-        return math.nan
-    strains, loads = points[np.argsort(points[:, 0], kind="stable")].T  # also of a curve with two loads at a strain
+    curve = next(curves, None)
+    if curve is None or len(curve.points) < FEWEST_POINTS or (curve.curve is not None and not curve.whole):
+        return math.nan  # unknown also if a row cannot be read, which may be the one next to 0
+    order = np.argsort(curve.points[:, 0], kind="stable")  # also of a curve with two loads at a strain
+    strains, loads = curve.points[order].T
     at = int(np.clip(np.searchsorted(strains, 0.0, side="right"), 1, len(strains) - 1))
     rise, run = float(loads[at] - loads[at - 1]), float(strains[at] - strains[at - 1])
     return rise / run if run > 0.0 else math.nan

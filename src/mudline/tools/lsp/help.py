@@ -36,9 +36,9 @@ from mudline.tools.lsp.places import Occurrence, Site, at, equation_spans, site
 def hover(analysis: Analysis, offset: int) -> types.Hover | None:
     """Return the help on an offset, in Markdown; None if there is none."""
     origin = analysis.origin
-    _, section, block, _ = spot = origin.tree.at(offset)
+    where, section, block, _ = spot = origin.tree.at(offset)
     leaf = spot.part.head
-    if leaf is not None and leaf.span.start <= offset < leaf.span.end:
+    if leaf is not None and where.section >= 0 and leaf.span.start <= offset < leaf.span.end:
         head = keyword_help(block.name, section.name) if block else section_help(section.name)
         return _hover(analysis, head, trimmed(origin.source.unified, *leaf.span))
     named = at(analysis.names, offset)

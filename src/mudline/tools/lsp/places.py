@@ -111,7 +111,7 @@ def _passed_through(origin: TextOrigin) -> Iterator[Occurrence]:
     """Yield the sets that SET= names in blocks whose lines are not read."""
     text = origin.source.unified
     for where, _, block, _ in origin.tree.spots:
-        for leaf in block.leaves if block and where[:2] not in origin.read else ():
+        for leaf in block.leaves if block and where.section >= 0 and where[:2] not in origin.read else ():
             if leaf.kind is LeafKind.SETTING and first_key(text, leaf.span) == _SET:
                 value = read_line(text, leaf.span).groups[0].fields[0]
                 span = _inner(origin, value.span)
