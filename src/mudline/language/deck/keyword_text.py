@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from itertools import chain, zip_longest
-from typing import Any, TypeVar, cast
+from typing import cast
 
 import numpy as np
 
@@ -20,8 +20,9 @@ from mudline.language.diagnostics import DeckError, Problem, Severity, Where
 from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.faults import DocumentPath, path_text, shown
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.model import Block, Part, Path, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, Part, Path, Rows
 from mudline.language.keywords.reader import ReadBlock
+from mudline.language.keywords.rebuilding import rebuilt
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import block_lines
 from mudline.language.syntax.source import Source
@@ -110,14 +111,16 @@ def lines_of(block: Block | Opaque) -> list[str]:
     return [f"*{block.keyword}", *block.lines] if isinstance(block, Opaque) else list(block_lines(block))
 
 
-_P = TypeVar("_P", bound=Part)
 _FEW = 20
 """Rows of a table that are tried, beside one for every length and every word in it: numbers are safe."""
 
 
 def sampled(deck: Deck) -> Deck:
     """The deck with few rows in its tables, enough to see whether they survive."""
-    sections = [replace(section, blocks=[_sample(block) for block in section.blocks]) for section in deck.sections]
+    sections = [
+        replace(section, blocks=[rebuilt(block, _few_rows, _is_table) for block in section.blocks])
+        for section in deck.sections
+    ]
     return replace(deck, sections=sections)
 
 
@@ -151,18 +154,13 @@ def _section_difference(section: Section, again: Section, index: int, *, as_line
     return None
 
 
-def _sample(part: _P) -> _P:
-    changes: dict[str, Any] = {}
-    for slot in record_schema(type(part)).slots:
-        value = getattr(part, slot.name, None)
-        if isinstance(value, Table) and len(value) > _FEW:
-            changes[slot.name] = _some_rows(value)
-        elif slot.record and value:
-            changes[slot.name] = [_sample(record) for record in value]
-    return part.model_copy(update=changes) if changes else part
+def _is_table(slot: FieldSpec) -> bool:
+    return isinstance(slot.about, Rows)
 
 
-def _some_rows(table: Table) -> Table:
+def _few_rows(table: Table, _slot: FieldSpec, _path: Path) -> Table:
+    if len(table) <= _FEW:
+        return table
     firsts = np.unique(table.lengths, return_index=True)[1].tolist()
     first_of = {(column, word): row for (row, column), word in reversed(table.words.items())}
     return table.chosen(sorted({*range(_FEW), *firsts, *first_of.values()}))
