@@ -20,7 +20,7 @@ from mudline.language.deck.keyword_text import as_text
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck, Opaque, comment_texts
 from mudline.language.deck.reading import TextOrigin, read_source
-from mudline.language.diagnostics import DeckError, Problem
+from mudline.language.diagnostics import DeckError, Problem, new_codes
 from mudline.language.syntax.edits import edited_bytes
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import is_comment
@@ -87,10 +87,8 @@ def _checked(deck: Deck, before: Scene, changed: Deck, files: Mapping[str, bytes
     faults = [problem.message for problem in after.errors()]
     lost = Counter(_comments(deck)) - Counter(_comments(changed))
     faults += [f"the comment {text!r} would be lost or read as data" for text in lost]
-    expected = Counter(problem.code.code for problem in before.findings)
-    new = Counter(problem.code.code for problem in after.findings)
-    for code in (new - expected) - Counter({"REF015": len(files)}):
-        faults.append(f"it would have a new finding {code}")
+    new = new_codes(before.findings, after.findings) - Counter({"REF015": len(files)})
+    faults += [f"it would have a new finding {code}" for code in new]
     if not faults:
         faults += [f"{each.where} would change" for each in _differences(before, after, files)]
     if faults:
