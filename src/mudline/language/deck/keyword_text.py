@@ -21,7 +21,7 @@ from mudline.language.diagnostics import DeckError, Problem, Severity, Where
 from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.faults import path_text, shown
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.model import Block, FieldSpec, Part, Path, Rows
+from mudline.language.keywords.model import Block, FieldSpec, Part, Path
 from mudline.language.keywords.reader import ReadBlock
 from mudline.language.keywords.rebuilding import rebuilt
 from mudline.language.keywords.table import Table
@@ -119,14 +119,10 @@ _FEW = 20
 def sampled(deck: Deck) -> Deck:
     """The deck with few rows in its tables, enough to see whether they survive."""
     sections = [
-        replace(section, blocks=[rebuilt(block, _few_rows, _is_table) for block in section.blocks])
+        replace(section, blocks=[rebuilt(block, _few_rows, (Table,)) for block in section.blocks])
         for section in deck.sections
     ]
     return replace(deck, sections=sections)
-
-
-def _is_table(slot: FieldSpec) -> bool:
-    return isinstance(slot.about, Rows)
 
 
 def _few_rows(table: Table, _slot: FieldSpec, _path: Path) -> Table:

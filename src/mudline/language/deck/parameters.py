@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
+from typing import TYPE_CHECKING, NamedTuple, NewType, cast
 
 from mudline.basics.spelling import Effort
 from mudline.language.codes.fields import SYN002, SYN006, SYN017
@@ -335,16 +335,11 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
         evaluator.blocks = Blocks.ALWAYS if section.name == "MODEL" else Blocks.NEVER
         for j, block in enumerate(section.blocks if section.name != DEFINING else ()):
             evaluator.where = Where(i, j)
-            section.blocks[j] = rebuilt(block, evaluator.changed, _may_change)
+            section.blocks[j] = rebuilt(block, evaluator.changed, (Equation, Label, Table))
     noticed = parameters.problems
     if evaluator.lacks_parameter:
         noticed = [replace(problem, blocks=Blocks.ALWAYS) for problem in noticed]
     return ready, noticed + evaluator.problems
-
-
-def _may_change(slot: FieldSpec) -> bool:
-    """Return True for a field that may hold an equation or a label."""
-    return not slot.is_text
 
 
 class _Evaluator:
@@ -356,15 +351,13 @@ class _Evaluator:
         self.blocks = Blocks.ALWAYS
         self.where = Where(0)
 
-    def changed(self, value: Any, slot: FieldSpec, path: Path) -> Any:
-        """Return the number that takes the place of an equation or a label; any other value itself."""
+    def changed(self, value: Equation | Label | Table, slot: FieldSpec, path: Path) -> object:
+        """Return the number that takes the place of an equation or a label, or a table with such numbers."""
         if isinstance(value, Equation):
             return self._number(value, slot.kind or Kind.REAL, slot.label, path)
         if isinstance(value, Label):
             return self._labelled(value, slot)
-        if isinstance(value, Table) and (value.equations or (self.labels and value.words)):
-            return self._table(value, slot, path)
-        return value
+        return self._table(value, slot, path) if value.equations or (self.labels and value.words) else value
 
     def _labelled(self, label: Label, slot: FieldSpec) -> int | Label:
         """Return the number of a label that `*LABEL` defines; the label itself without one."""

@@ -409,7 +409,7 @@ is_part = cache(lambda kind: issubclass(kind, Part))  # several times as fast as
 
 
 def _walk(part: Part, prefix: Path, wanted: FieldFilter | None, values: list[PartValue]) -> None:
-    for slot, own in leading(type(part), wanted):
+    for slot, own in _leading(type(part), wanted):
         value: Any = getattr(part, slot.name, None)
         listed = isinstance(value, list)
         for index, item in enumerate(value if listed else () if value is None else (value,)):
@@ -422,16 +422,16 @@ def _walk(part: Part, prefix: Path, wanted: FieldFilter | None, values: list[Par
 
 
 @cache
-def leading(part: type[Part], wanted: FieldFilter | None) -> tuple[tuple[FieldSpec, bool], ...]:
+def _leading(part: type[Part], wanted: FieldFilter | None) -> tuple[tuple[FieldSpec, bool], ...]:
     """Return the fields of a part that are wanted (True), or only contain parts with wanted fields (False)."""
     slots = ((slot, wanted is None or wanted(slot)) for slot in record_schema(part).slots)
-    return tuple((slot, own) for slot, own in slots if own or any(leading(inner, wanted) for inner in slot.parts))
+    return tuple((slot, own) for slot, own in slots if own or any(_leading(inner, wanted) for inner in slot.parts))
 
 
 @cache
 def has_fields(part: type[Part], wanted: FieldFilter) -> bool:
     """Return True if a part or an inner part has a wanted field: without one, a walk is not needed."""
-    return bool(leading(part, wanted))
+    return bool(_leading(part, wanted))
 
 
 def fields_of(part: type[Part]) -> Iterator[FieldSpec]:
