@@ -188,6 +188,7 @@ class _BlockLayout:
         kinds: kind of the row, or of the values of a KEY=, by the offset of its first character.
         choices: known choices by offset.
         whole: unknown choices by offset, which may contain commas.
+        kept: offsets of lines that are not read.
     """
 
     def __init__(self, text: str, read: ReadBlock) -> None:
@@ -197,6 +198,7 @@ class _BlockLayout:
         self.kinds: dict[int, RowKind] = {}
         self.choices: dict[int, str] = {}
         self.whole: dict[int, str] = {}
+        self.kept = {span.start for span in self.places.kept.values()}
         self.rows: AlignedRows | None = None
         self._rows_of(read.model, ())
         for path, slot, value in read.model.walk():
@@ -241,7 +243,7 @@ class _BlockLayout:
         elif leaf.kind in (LeafKind.RUN, LeafKind.TEXT):
             for line in line_spans(self.text, leaf.span):
                 yield from self._row(Span(line.start, min(line.end + 1, leaf.span.end)))
-        elif leaf.span.start in self.places.kept:
+        elif leaf.span.start in self.kept:
             yield from self.flush()
         elif leaf.kind is LeafKind.SETTING or (
             leaf.kind is LeafKind.UNDECIDED and first_key(self.text, leaf.span) in self.keys
