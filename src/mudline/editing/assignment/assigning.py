@@ -21,7 +21,7 @@ from mudline.language.keywords.contents import range_fault
 from mudline.language.keywords.model import Part, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import suggestion
-from mudline.language.keywords.values import Equation, Kind
+from mudline.language.keywords.values import WHOLE_KINDS, Equation, Kind
 from mudline.language.syntax.edits import TextEdit, edited_bytes, replacement_in_layout
 from mudline.language.syntax.source import Source
 from mudline.model.scene.model import resolve
@@ -170,7 +170,7 @@ def _require_fitting(current: FieldValue, operand: WrittenOperand, assignment: A
     slot = current.field.slot
     if operand.number is None or (slot.kind in (Kind.NAME, Kind.TITLE) and not slot.choices):
         return
-    if slot.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL) and not operand.number.is_integer():
+    if slot.kind in WHOLE_KINDS and not operand.number.is_integer():
         raise AssignmentError(f"{assignment.path} cannot be {assignment.value!r}: expected a whole number", line)
     if fault := range_fault(operand.number, slot):
         raise AssignmentError(fault, line)

@@ -16,7 +16,7 @@ from mudline.language.keywords.model import FieldSpec, Path, record_schema
 from mudline.language.keywords.rebuilding import rebuilt
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown, suggestion
-from mudline.language.keywords.values import UNKNOWN, Equation, Kind, Label, Names, is_unknown
+from mudline.language.keywords.values import UNKNOWN, WHOLE_KINDS, Equation, Kind, Label, Names, is_unknown
 from mudline.language.syntax.rows import read_number
 
 if TYPE_CHECKING:
@@ -366,7 +366,7 @@ class _Evaluator:
     def _number(self, equation: Equation, kind: Kind, label: str, path: Path) -> Value:
         """Return the value of an equation."""
         where = self.where.inside(*path)
-        whole = kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
+        whole = kind in WHOLE_KINDS
         nothing: Value = UNKNOWN
         try:
             value = self.parameters.evaluate(equation, where)
