@@ -18,9 +18,10 @@ from mudline.language.codes import MIG001
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.keyword_text import as_text
 from mudline.language.deck.loading import dump
-from mudline.language.deck.model import Deck, Opaque, comment_texts
+from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem, new_codes
+from mudline.language.keywords.model import Part
 from mudline.language.syntax.edits import edited_bytes
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import is_comment
@@ -107,11 +108,15 @@ def _differences(before: Scene, after: Scene, files: Mapping[str, bytes]) -> lis
 
 
 def _comments(deck: Deck) -> Iterator[str]:
-    """Yield the text of every comment, including those among the lines of opaque blocks."""
-    yield from comment_texts(deck)
+    """Yield the text of every comment without its mark, including those among the lines of opaque blocks."""
+    yield from deck.preamble
+    holders: list[Deck | Section | Part] = [deck, *deck.sections]
     for _, _, block in deck.every_block():
         if isinstance(block, Opaque):
             yield from (line[1:] for line in block.lines if is_comment(line, words=True))
+        holders += [block, *(value for _, _, value in block.walk() if isinstance(value, Part))]
+    for holder in holders:
+        yield from (comment.text for comment in getattr(holder, "comments", ()))
 
 
 # -------------------------------------------------------------------------------------------------------- verification

@@ -28,7 +28,7 @@ from mudline.language.diagnostics import (
 from mudline.language.keywords.contents import Role, every_name_given, gives_names, keeps_lines, kept_places
 from mudline.language.keywords.faults import DocumentPath
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.model import Block, FieldSpec, Part
+from mudline.language.keywords.model import Block, Part
 from mudline.language.keywords.values import Names, Text
 
 
@@ -335,22 +335,6 @@ def unread_lines(block: Block | Opaque) -> Iterable[tuple[DocumentPath, str]]:
 def raw_lines(block: Block | Opaque) -> list[str]:
     """Return the lines of a block that are not read."""
     return [line for _, line in unread_lines(block)]
-
-
-def comment_texts(deck: Deck) -> Iterator[str]:
-    """Yield the text of every comment of a deck, without its mark."""
-    yield from deck.preamble
-    yield from (comment.text for comment in deck.comments)
-    for section in deck.sections:
-        yield from (comment.text for comment in section.comments)
-        for block in section.blocks:
-            inner = (value for _, _, value in block.walk(_holds_records))
-            for part in (block, *inner):
-                yield from (comment.text for comment in getattr(part, "comments", ()))
-
-
-def _holds_records(slot: FieldSpec) -> bool:
-    return bool(slot.record)
 
 
 class Base(NamedTuple):
