@@ -198,7 +198,7 @@ class _BlockLayout:
         self.kinds: dict[int, RowKind] = {}
         self.choices: dict[int, str] = {}
         self.whole: dict[int, str] = {}
-        self.kept = {span.start for span in self.places.kept.values()}
+        self.kept = read.places.kept_starts
         self.rows: AlignedRows | None = None
         self._rows_of(read.model, ())
         for path, slot, value in read.model.walk():

@@ -170,6 +170,11 @@ class Places:
         for name, field_ in zip(names, fields, strict=False):
             self.spans[*path, name] = field_.span
 
+    @property
+    def kept_starts(self) -> frozenset[int]:
+        """Offsets of the lines that are passed through unchanged."""
+        return frozenset(span.start for span in self.kept.values())
+
     def find(self, path: Path) -> Span:
         """Return the span of a value; for a value that was left out, the span of the nearest enclosing object."""
         for length in range(len(path), 0, -1):
