@@ -149,7 +149,7 @@ def read_deck(
     """
     deck = load_bytes(data, name, form=form, units=units, folder=folder, read=read_once)
     if isinstance(deck.origin, TextOrigin):
-        deck.origin.no_equations = "[" not in deck.origin.source.text
+        deck.origin.no_equations = "=[" not in deck.origin.source.text
     return deck
 
 

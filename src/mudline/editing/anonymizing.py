@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import NamedTuple, TypeVar
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +19,8 @@ from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import DeckError, Problem, Where
-from mudline.language.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, Path
+from mudline.language.keywords.rebuilding import rebuilt
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Names
 from mudline.model.contact.result import ContactResult
@@ -38,7 +40,10 @@ _NEEDED = {
     "ANALYSIS": {"UNITS"},
 }
 _ALL = "all"
-_AnyPart = TypeVar("_AnyPart", bound=Part)
+_AXES = {"y": 0, "y_min": 0, "y_max": 0, "z": 1, "z_min": 1, "z_max": 1}
+"""Fields that are horizontal coordinates: 0 for Y, 1 for Z."""
+_COLUMNS = {"nodes": {2: 0, 3: 1}, "profile": {0: 0}}
+"""Columns of such coordinates in the tables that have them."""
 
 
 class Anonymous(NamedTuple):
@@ -119,25 +124,17 @@ class _Hiding:
             if isinstance(block, Opaque) or not _is_needed(section.name, block):
                 self.left_out.append(block.keyword)
             else:
-                yield self._part(block, Where(index, number))
+                yield rebuilt(block, partial(self._changed, Where(index, number)), bare=True)
 
-    def _part(self, part: _AnyPart, where: Where) -> _AnyPart:
-        changed: dict[str, object] = {name: [] for name in ("comments", "unread") if name in type(part).model_fields}
-        for slot in record_schema(type(part)).slots:
-            value = getattr(part, slot.name)
-            if slot.about.names is Names.FILE and value is not None:
-                self.file = self.file or where.inside(slot.json)
-            changed[slot.name] = self._value(value, slot, where)
-        return _moved(part.model_copy(update=changed), self.shift)
-
-    def _value(self, value: object, slot: FieldSpec, where: Where) -> object:
-        if isinstance(value, Part):
-            return self._part(value, where)
-        if isinstance(value, list):
-            return [self._value(item, slot, where) for item in value]
-        if isinstance(value, Table):  # a label of *LABEL is a number by now
-            return Table(value.values, value.lengths, dict.fromkeys(value.words), value.columns)
-        return self._name(value, slot) if isinstance(value, str) and value not in slot.choices else value
+    def _changed(self, block: Where, value: object, slot: FieldSpec, path: Path) -> object:
+        """Return a value with another name, or counted from the new origin."""
+        if slot.about.names is Names.FILE:
+            self.file = self.file or block.inside(*path)
+        if isinstance(value, Table):
+            return _moved(value, {column: self.shift[axis] for column, axis in _COLUMNS.get(slot.name, {}).items()})
+        if isinstance(value, str) and value not in slot.choices:
+            return self._name(value, slot)
+        return value - self.shift[_AXES[slot.name]] if isinstance(value, float) and slot.name in _AXES else value
 
     def _name(self, name: str, slot: FieldSpec) -> str:
         if folded(name) == _ALL:
@@ -151,19 +148,9 @@ def _is_needed(section: str, block: Block) -> bool:
     return block.keyword in _NEEDED.get(section, ()) or (section == "MODEL" and block.subject == "seabed")
 
 
-def _moved(part: _AnyPart, shift: tuple[float, float]) -> _AnyPart:
-    """Return a part with its horizontal coordinates from the new origin."""
-    for name, columns in (("nodes", {2: shift[0], 3: shift[1]}), ("profile", {0: shift[0]})):
-        if isinstance(table := getattr(part, name, None), Table):
-            return part.model_copy(update={name: _columns_moved(table, columns)})
-    axes = {"y": shift[0], "z": shift[1], "y_min": shift[0], "y_max": shift[0], "z_min": shift[1], "z_max": shift[1]}
-    moved = {name: getattr(part, name) - by for name, by in axes.items() if getattr(part, name, None) is not None}
-    return part.model_copy(update=moved) if moved else part
-
-
-def _columns_moved(table: Table, by: dict[int, float]) -> Table:
-    """Return a table with amounts subtracted from columns; an omitted Z is 0."""
-    values, words = table.values.copy(), dict(table.words)
+def _moved(table: Table, by: dict[int, float]) -> Table:
+    """Return a table without labels, with amounts subtracted from columns; an omitted Z is 0."""
+    values, words = table.values.copy(), dict.fromkeys(table.words)  # a label of *LABEL is a number by now
     lengths = table.lengths.copy()
     for column, amount in by.items():
         if amount:

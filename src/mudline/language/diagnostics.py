@@ -6,6 +6,7 @@ of the text or a path into the values. A *diagnostic* is its public form: file, 
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -134,6 +135,11 @@ class Problem:
 def strongest(problems: Iterable[Problem]) -> Blocks:
     """Return the strictest condition under which any of the problems keeps the deck from being evaluated."""
     return max((problem.blocking for problem in problems), key=[*Blocks].index)
+
+
+def new_codes(before: Iterable[Problem], after: Iterable[Problem]) -> Counter[str]:
+    """Return the codes of which there are more problems after than before, each with the number of further ones."""
+    return Counter(each.code.code for each in after) - Counter(each.code.code for each in before)
 
 
 class Edit(NamedTuple):

@@ -96,3 +96,10 @@ def test_a_number_that_names_something_is_given_by_no_equation(lines: str, line:
     found = [one for one in linted(GIVEN + lines) if one.line == line and one.column == column]
     message = f"'=[dof]' is an equation: expected a number or a {{label}} for {field}"
     assert [(one.code, one.message) for one in found] == [("SYN002", message)]
+
+
+def test_an_equation_in_a_list_has_a_value_and_a_place() -> None:
+    body = "$MODEL\n*AUXILIARY\n BODY=NONE\n 1, =[{}]\n"
+    assert in_deck(scene_of(GIVEN + body.format("dof"))) == []
+    found = [one for one in linted(GIVEN + body.format("dfo")) if one.code == "REF013"]
+    assert [(one.line, one.column) for one in found] == [(8, 5)]

@@ -365,7 +365,7 @@ def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) ->
     if read is None:
         return [line.start for line in lines_of(text, block) if _is_telling(unified, line)]
     leaves = data_of(block.leaves) if read.lost else []
-    kept = read.places.kept if leaves else frozenset()
+    kept = read.places.kept_starts if leaves else frozenset()
     offsets: list[int] = []
     declared, behind = type(read.model), False
     for above, leaf in pairwise(leaves[:-1]):

@@ -20,9 +20,8 @@ from mudline.language.diagnostics import Problem, Repair, Severity, Span, Where
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
-from mudline.language.syntax.fields import first_key
 from mudline.language.syntax.rows import line_spans, row_fields
-from mudline.language.syntax.tree import Leaf, LeafKind
+from mudline.language.syntax.tree import Leaf, LeafKind, is_data
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws_in_use import idle_curves, named_as_numbers, repeated_curves
@@ -146,8 +145,7 @@ def _by_curve(leaves: list[Leaf], source: str, keys: frozenset[str], starts: lis
     lines: dict[int, list[Span]] = {start: [] for start in starts}
     for leaf in leaves:
         at = bisect_right(starts, leaf.span.end - 1) - 1
-        is_data = leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)
-        if at >= 0 and (first_key(source, leaf.span) in keys if leaf.kind is LeafKind.UNDECIDED else is_data):
+        if at >= 0 and is_data(source, leaf, keys):
             lines[starts[at]].append(leaf.span)
     return lines
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import NamedTuple, cast
@@ -17,12 +16,12 @@ from mudline.editing.assignment.paths import Assignment, WrittenOperand, parse_p
 from mudline.language.deck.keyword_text import same_meaning
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
-from mudline.language.diagnostics import Diagnostic, Severity, Where
+from mudline.language.diagnostics import Diagnostic, Severity, Where, new_codes
 from mudline.language.keywords.contents import range_fault
 from mudline.language.keywords.model import Part, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import suggestion
-from mudline.language.keywords.values import Equation, Kind
+from mudline.language.keywords.values import WHOLE_KINDS, Equation, Kind
 from mudline.language.syntax.edits import TextEdit, edited_bytes, replacement_in_layout
 from mudline.language.syntax.source import Source
 from mudline.model.scene.model import resolve
@@ -171,7 +170,7 @@ def _require_fitting(current: FieldValue, operand: WrittenOperand, assignment: A
     slot = current.field.slot
     if operand.number is None or (slot.kind in (Kind.NAME, Kind.TITLE) and not slot.choices):
         return
-    if slot.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL) and not operand.number.is_integer():
+    if slot.kind in WHOLE_KINDS and not operand.number.is_integer():
         raise AssignmentError(f"{assignment.path} cannot be {assignment.value!r}: expected a whole number", line)
     if fault := range_fault(operand.number, slot):
         raise AssignmentError(fault, line)
@@ -182,8 +181,7 @@ def _require_no_worse(before: Deck, after: Deck, line: int) -> None:
     old, new = (
         [problem for problem in resolve(deck).findings if problem.weight is Severity.ERROR] for deck in (before, after)
     )
-    more = Counter(problem.code.code for problem in new) - Counter(problem.code.code for problem in old)
-    if more:
+    if more := new_codes(old, new):
         known = {problem.message for problem in old}
         added = [problem for problem in new if problem.code.code in more and problem.message not in known] or new
         raise AssignmentError("the deck would have a new error", line, after.diagnose(added))

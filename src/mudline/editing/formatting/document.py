@@ -21,10 +21,10 @@ from mudline.language.keywords.reader import ReadBlock, all_keys
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Kind
 from mudline.language.syntax.edits import TextEdit, apply_edits
-from mudline.language.syntax.fields import FieldGroup, first_key, read_line, split
+from mudline.language.syntax.fields import FieldGroup, read_line, split
 from mudline.language.syntax.rows import blank_separated, line_spans
 from mudline.language.syntax.source import CONTROLS, END_MARK, Source
-from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock
+from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, is_data
 
 _CUT_OFF = "the file ends right after a keyword and seems to be cut off: add what is missing, or a line end"
 _COMMAS = "a number seems to have a decimal comma, which a blank after it would hide: correct it first (SYN015)"
@@ -188,6 +188,7 @@ class _BlockLayout:
         kinds: kind of the row, or of the values of a KEY=, by the offset of its first character.
         choices: known choices by offset.
         whole: unknown choices by offset, which may contain commas.
+        kept: offsets of lines that are not read.
     """
 
     def __init__(self, text: str, read: ReadBlock) -> None:
@@ -197,6 +198,7 @@ class _BlockLayout:
         self.kinds: dict[int, RowKind] = {}
         self.choices: dict[int, str] = {}
         self.whole: dict[int, str] = {}
+        self.kept = read.places.kept_starts
         self.rows: AlignedRows | None = None
         self._rows_of(read.model, ())
         for path, slot, value in read.model.walk():
@@ -241,11 +243,9 @@ class _BlockLayout:
         elif leaf.kind in (LeafKind.RUN, LeafKind.TEXT):
             for line in line_spans(self.text, leaf.span):
                 yield from self._row(Span(line.start, min(line.end + 1, leaf.span.end)))
-        elif leaf.span.start in self.places.kept:
+        elif leaf.span.start in self.kept:
             yield from self.flush()
-        elif leaf.kind is LeafKind.SETTING or (
-            leaf.kind is LeafKind.UNDECIDED and first_key(self.text, leaf.span) in self.keys
-        ):
+        elif is_data(self.text, leaf, self.keys):
             yield from self.flush()
             yield leaf.span, self._setting(leaf.span)
         elif leaf.kind is not LeafKind.BLANK:

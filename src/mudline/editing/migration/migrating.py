@@ -18,9 +18,10 @@ from mudline.language.codes import MIG001
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.keyword_text import as_text
 from mudline.language.deck.loading import dump
-from mudline.language.deck.model import Deck, Opaque, comment_texts
+from mudline.language.deck.model import Deck, Opaque, Section
 from mudline.language.deck.reading import TextOrigin, read_source
-from mudline.language.diagnostics import DeckError, Problem
+from mudline.language.diagnostics import DeckError, Problem, new_codes
+from mudline.language.keywords.model import Part
 from mudline.language.syntax.edits import edited_bytes
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import is_comment
@@ -87,10 +88,8 @@ def _checked(deck: Deck, before: Scene, changed: Deck, files: Mapping[str, bytes
     faults = [problem.message for problem in after.errors()]
     lost = Counter(_comments(deck)) - Counter(_comments(changed))
     faults += [f"the comment {text!r} would be lost or read as data" for text in lost]
-    expected = Counter(problem.code.code for problem in before.findings)
-    new = Counter(problem.code.code for problem in after.findings)
-    for code in (new - expected) - Counter({"REF015": len(files)}):
-        faults.append(f"it would have a new finding {code}")
+    new = new_codes(before.findings, after.findings) - Counter({"REF015": len(files)})
+    faults += [f"it would have a new finding {code}" for code in new]
     if not faults:
         faults += [f"{each.where} would change" for each in _differences(before, after, files)]
     if faults:
@@ -109,11 +108,15 @@ def _differences(before: Scene, after: Scene, files: Mapping[str, bytes]) -> lis
 
 
 def _comments(deck: Deck) -> Iterator[str]:
-    """Yield the text of every comment, including those among the lines of opaque blocks."""
-    yield from comment_texts(deck)
+    """Yield the text of every comment without its mark, including those among the lines of opaque blocks."""
+    yield from deck.preamble
+    holders: list[Deck | Section | Part] = [deck, *deck.sections]
     for _, _, block in deck.every_block():
         if isinstance(block, Opaque):
             yield from (line[1:] for line in block.lines if is_comment(line, words=True))
+        holders += [block, *(value for _, _, value in block.walk() if isinstance(value, Part))]
+    for holder in holders:
+        yield from (comment.text for comment in getattr(holder, "comments", ()))
 
 
 # -------------------------------------------------------------------------------------------------------- verification

@@ -25,9 +25,8 @@ from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, edited_bytes
-from mudline.language.syntax.fields import first_key
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Leaf, LeafKind, RawBlock, RawSection
+from mudline.language.syntax.tree import Leaf, RawBlock, RawSection, is_data
 from mudline.model.scene.deck_values import file_name, find_file, settings_in
 
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
@@ -197,13 +196,9 @@ class ExpansionPlan:
 def _end(text: str, section: RawSection, block: RawBlock) -> int:
     """Return the end of the last line of a block that is not a comment."""
     declared = catalogue.block_class(section.name, block.name)
-
-    def is_data(leaf: Leaf) -> bool:
-        if leaf.kind is LeafKind.UNDECIDED:
-            return declared is None or first_key(text, leaf.span) in all_keys(declared)
-        return leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)
-
-    return max(leaf.span.end for leaf in (block.head, *block.leaves) if leaf is block.head or is_data(leaf))
+    keys = all_keys(declared) if declared else None
+    ends = (leaf.span.end for leaf in block.leaves if is_data(text, leaf, keys))
+    return max(ends, default=block.head.span.end)
 
 
 # -------------------------------------------------------------------------------------------- manifest and conflicts

@@ -5,23 +5,25 @@ Blocks that cannot be read are their lines: documents hold them so, and a keywor
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+import sys
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain, zip_longest
-from typing import Any, TypeVar, cast
+from typing import cast
 
 import numpy as np
 
 from mudline.language.codes import DOC002
 from mudline.language.deck.faults import document_path
-from mudline.language.deck.model import Deck, Opaque, Section
+from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import DeckError, Problem, Severity, Where
 from mudline.language.keywords.contents import is_refused
-from mudline.language.keywords.faults import DocumentPath, path_text, shown
+from mudline.language.keywords.faults import path_text, shown
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.model import Block, Part, Path, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, Part, Path
 from mudline.language.keywords.reader import ReadBlock
+from mudline.language.keywords.rebuilding import rebuilt
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import block_lines
 from mudline.language.syntax.source import Source
@@ -45,8 +47,8 @@ def _require_survival(deck: Deck, *, as_lines: bool) -> None:
     again = read_source(Source.from_bytes(text.encode(errors="replace"), deck.source), units=deck.units)
     raw = raw_places(deck)
     again, _ = with_raw_lines(again, raw)
-    if change := _first_difference(light, again, as_lines=as_lines):
-        where, reason = change
+    if change := _first_difference(light, again, values_only=as_lines):
+        where, reason = _described(*change)
         message = f"{path_text(document_path(where))} cannot be written as keyword text: {reason}"
         raise DeckError(deck.diagnose([Problem(DOC002, message, where=where)]))
     if not as_lines and text != (other := canonical_text(again)):
@@ -110,68 +112,37 @@ def lines_of(block: Block | Opaque) -> list[str]:
     return [f"*{block.keyword}", *block.lines] if isinstance(block, Opaque) else list(block_lines(block))
 
 
-_P = TypeVar("_P", bound=Part)
 _FEW = 20
 """Rows of a table that are tried, beside one for every length and every word in it: numbers are safe."""
 
 
 def sampled(deck: Deck) -> Deck:
     """The deck with few rows in its tables, enough to see whether they survive."""
-    sections = [replace(section, blocks=[_sample(block) for block in section.blocks]) for section in deck.sections]
+    sections = [
+        replace(section, blocks=[rebuilt(block, _few_rows, (Table,)) for block in section.blocks])
+        for section in deck.sections
+    ]
     return replace(deck, sections=sections)
 
 
-def _first_difference(deck: Deck, again: Deck, *, as_lines: bool) -> tuple[Where, str] | None:
-    """The first value of a deck that is another one in what was read from its text, and what it was read as."""
-    if not as_lines and (
-        change := first_difference(numbered("preamble", deck.preamble), numbered("preamble", again.preamble))
-    ):
-        return _described(Where(), *change)
-    for index, section in enumerate(deck.sections):
-        if index == len(again.sections) or again.sections[index].name != section.name:
-            return Where(index, -1, ("name",)), f"{shown(section.name)} would not be read as this section"
-        if found := _section_difference(section, again.sections[index], index, as_lines=as_lines):
-            return found
-    if len(again.sections) > len(deck.sections):
-        return Where(len(deck.sections) - 1), f"a line would be read as ${again.sections[-1].name}"
-    return None
-
-
-def _section_difference(section: Section, again: Section, index: int, *, as_lines: bool) -> tuple[Where, str] | None:
-    if not as_lines and (change := first_difference(numbered("lines", section.lines), numbered("lines", again.lines))):
-        return _described(Where(index), *change)
-    for number, block in enumerate(section.blocks):
-        if as_lines and type(block) is Opaque:
-            continue
-        found = again.blocks[number] if number < len(again.blocks) else None
-        if block != found and (change := first_difference(meaning(block), meaning(found) if found else {})):
-            return _described(Where(index, number), *change)
-    if len(again.blocks) > len(section.blocks):
-        return Where(index), f"a line of this section would be read as *{again.blocks[-1].keyword}"
-    return None
-
-
-def _sample(part: _P) -> _P:
-    changes: dict[str, Any] = {}
-    for slot in record_schema(type(part)).slots:
-        value = getattr(part, slot.name, None)
-        if isinstance(value, Table) and len(value) > _FEW:
-            changes[slot.name] = _some_rows(value)
-        elif slot.record and value:
-            changes[slot.name] = [_sample(record) for record in value]
-    return part.model_copy(update=changes) if changes else part
-
-
-def _some_rows(table: Table) -> Table:
+def _few_rows(table: Table, _slot: FieldSpec, _path: Path) -> Table:
+    if len(table) <= _FEW:
+        return table
     firsts = np.unique(table.lengths, return_index=True)[1].tolist()
     first_of = {(column, word): row for (row, column), word in reversed(table.words.items())}
     return table.chosen(sorted({*range(_FEW), *firsts, *first_of.values()}))
 
 
-def _described(where: Where, path: DocumentPath, wanted: object, found: object) -> tuple[Where, str]:
+def _described(where: Where, wanted: object, found: object) -> tuple[Where, str]:
     """A place, and what would be read there, in words."""
+    if where.block < 0 and where.path == ("name",):
+        if wanted is None:
+            return Where(where.section - 1), f"a line would be read as ${found}"
+        return where, f"{shown(wanted)} would not be read as this section"
+    if wanted is None and where.path == ("keyword",):
+        return Where(where.section), f"a line of this section would be read as *{found}"
     given, read = ("nothing" if one is None else shown(one) for one in (wanted, found))
-    return where._replace(path=path), f"{given} would be read as {read}"
+    return where, f"{given} would be read as {read}"
 
 
 def is_faulty(read: ReadBlock) -> bool:
@@ -220,9 +191,14 @@ Meaning = dict[Path, object]
 
 
 def meaning(part: Part, *, comments: bool = False) -> Meaning:
-    """Return the content of a block, on request with its comments; blanks at the end of a line do not count."""
+    """Return the content of a block, on request with its comments; blanks at the end of a line do not count.
+
+    With comments the layout does not count: blank lines at the end of a block without a model are left out.
+    """
     if isinstance(part, Opaque):
-        return {("keyword",): part.keyword, **numbered("lines", part.lines)}
+        # formatting gives an end-of-file mark behind the last line a line of its own
+        lines = "\n".join(part.lines).rstrip().split("\n") if comments else part.lines
+        return {("keyword",): part.keyword, **_numbered("lines", lines)}
     values = [(path, value) for path, _, value in part.walk()]
     parts = [(path, value) for path, value in values if isinstance(value, Part)]
     content: Meaning = {("keyword",): part.keyword} if isinstance(part, Block) else {}
@@ -235,56 +211,60 @@ def meaning(part: Part, *, comments: bool = False) -> Meaning:
     return content
 
 
-def first_difference(first: Meaning, second: Meaning) -> tuple[Path, object, object] | None:
-    """Return the first value that differs in two blocks, with its path; None if the blocks are equal."""
-    for path in first | second:
-        left, right = first.get(path), second.get(path)
-        if left != right:
-            return _in_table(path, left, right) if isinstance(left, Table) else (path, left, right)
-    return None
-
-
-def _in_table(path: Path, left: Table, right: object) -> tuple[Path, object, object]:
-    """Return the first row that differs in two tables."""
-    rows = ([row.tolist() for row in table.values] if isinstance(table, Table) else [] for table in (left, right))
-    for number, (row, right_row) in enumerate(zip_longest(*rows)):
-        if row != right_row:
-            return (*path, number), row, right_row
-    return path, left, right
-
-
 def same_meaning(first: Deck, second: Deck) -> bool:
     """Return True if sections, blocks, values, comments and lines that are not read are equal.
 
     Blanks at the end of a comment and blank lines before the first section are ignored.
     """
-    return first.units == second.units and all(a == b for a, b in zip_longest(_pieces(first), _pieces(second)))
+    return first.units == second.units and _first_difference(first, second, comments=True) is None
 
 
-def _pieces(deck: Deck) -> Iterator[object]:
-    yield [line.rstrip(" \t") for line in deck.preamble if line.strip(" \t")]
-    yield _plain(deck.comments)
-    for section in deck.sections:
-        yield section.name, section.lines, _plain(section.comments)
-        for block in section.blocks:
-            if isinstance(block, Opaque):
-                yield block.keyword, _without_blanks(block.lines)
-            else:
-                yield meaning(block, comments=True)
+def _first_difference(
+    first: Deck, second: Deck, *, comments: bool = False, values_only: bool = False
+) -> tuple[Where, object, object] | None:
+    """Return the place of the first difference of two decks, and what each has there, None for nothing.
+
+    Comments count on request. With `values_only`, lines without a keyword and blocks that are lines do not count.
+    """
+    decks = (_pieces(deck, comments=comments, values_only=values_only) for deck in (first, second))
+    for pair in zip_longest(*decks, fillvalue=(Where(sys.maxsize), {})):
+        (one_place, one), (other_place, other) = pair
+        if one_place == other_place and (one == other or (values_only and type(one) is Opaque)):
+            continue
+        where = min(one_place, other_place)  # if they are not the same, only one deck has this section or block
+        left, right = (
+            {} if place != where else piece if isinstance(piece, dict) else meaning(piece, comments=comments)
+            for place, piece in pair
+        )
+        for path in left | right:
+            if left.get(path) != right.get(path):
+                return _innermost(where.inside(*path), left.get(path), right.get(path))
+    return None
 
 
-def _plain(comments: list[Comment]) -> list[tuple[int, str]]:
-    return [(comment.before, comment.text.rstrip(" \t")) for comment in comments]
+def _pieces(deck: Deck, *, comments: bool, values_only: bool) -> Iterator[tuple[Where, Block | Opaque | Meaning]]:
+    """Yield what stands before the first section, what stands before the blocks of each section, and its blocks."""
+
+    def lines(name: str, texts: list[str], remarks: list[Comment]) -> Meaning:
+        plain = [(remark.before, remark.text.rstrip(" \t")) for remark in remarks] if comments else []
+        return _numbered(name, [] if values_only else texts) | _numbered("comments", plain)
+
+    preamble = [line.rstrip(" \t") for line in deck.preamble if line.strip(" \t")] if comments else deck.preamble
+    yield Where(), lines("preamble", preamble, deck.comments)
+    for number, section in enumerate(deck.sections):
+        yield Where(number), {("name",): section.name} | lines("lines", section.lines, section.comments)
+        yield from ((Where(number, index), block) for index, block in enumerate(section.blocks))
 
 
-def numbered(name: str, lines: list[str]) -> Meaning:
-    """Return lines keyed by their numbers."""
-    return {(name, number): line for number, line in enumerate(lines)}
+def _numbered(name: str, items: Sequence[object]) -> Meaning:
+    return {(name, number): item for number, item in enumerate(items)}
 
 
-def _without_blanks(lines: list[str]) -> list[str]:
-    """Return lines without blank ones at the end: an end-of-file mark behind the last line gets a line of its own."""
-    end = len(lines)
-    while end and not lines[end - 1].strip():
-        end -= 1
-    return [*lines[: end - 1], *(line.rstrip() for line in lines[max(end - 1, 0) : end])]
+def _innermost(where: Where, left: object, right: object) -> tuple[Where, object, object]:
+    """Return the first row that differs in two tables, with its place; other values as they are."""
+    if isinstance(left, Table):
+        rows = ([row.tolist() for row in table.values] if isinstance(table, Table) else [] for table in (left, right))
+        for number, (row, right_row) in enumerate(zip_longest(*rows)):
+            if row != right_row:
+                return where.inside(number), row, right_row
+    return where, left, right

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import NoneType
@@ -26,8 +26,9 @@ from mudline.language.diagnostics import (
     Where,
 )
 from mudline.language.keywords.contents import Role, every_name_given, gives_names, keeps_lines, kept_places
+from mudline.language.keywords.faults import DocumentPath
 from mudline.language.keywords.fields import Comment
-from mudline.language.keywords.model import Block, FieldSpec, Part
+from mudline.language.keywords.model import Block, Part
 from mudline.language.keywords.values import Names, Text
 
 
@@ -324,27 +325,16 @@ class Deck:
         return [problem for problem in self.problems if problem.weight is Severity.ERROR]
 
 
+def unread_lines(block: Block | Opaque) -> Iterable[tuple[DocumentPath, str]]:
+    """Return the lines of a block that are not read, with their paths: all without a model, else those it keeps."""
+    if type(block) is Opaque:
+        return ((("lines", number), line) for number, line in enumerate(block.lines))
+    return kept_places(block) if keeps_lines(type(block)) else ()
+
+
 def raw_lines(block: Block | Opaque) -> list[str]:
-    """Return the lines of a block that are passed through: all without a model, else those that the model keeps."""
-    if isinstance(block, Opaque):
-        return block.lines
-    return [line for _, line in kept_places(block)] if keeps_lines(type(block)) else []
-
-
-def comment_texts(deck: Deck) -> Iterator[str]:
-    """Yield the text of every comment of a deck, without its mark."""
-    yield from deck.preamble
-    yield from (comment.text for comment in deck.comments)
-    for section in deck.sections:
-        yield from (comment.text for comment in section.comments)
-        for block in section.blocks:
-            inner = (value for _, _, value in block.walk(_holds_records))
-            for part in (block, *inner):
-                yield from (comment.text for comment in getattr(part, "comments", ()))
-
-
-def _holds_records(slot: FieldSpec) -> bool:
-    return bool(slot.record)
+    """Return the lines of a block that are not read."""
+    return [line for _, line in unread_lines(block)]
 
 
 class Base(NamedTuple):

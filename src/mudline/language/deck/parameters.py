@@ -5,17 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
+from typing import TYPE_CHECKING, NamedTuple, NewType, cast
 
 from mudline.basics.spelling import Effort
 from mudline.language.codes.fields import SYN002, SYN006, SYN017
 from mudline.language.codes.references import REF007, REF013, REF014
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Blocks, Problem, Severity, Where
-from mudline.language.keywords.model import FieldSpec, Part, Path, record_schema
+from mudline.language.keywords.model import FieldSpec, Path, record_schema
+from mudline.language.keywords.rebuilding import rebuilt
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown, suggestion
-from mudline.language.keywords.values import UNKNOWN, Equation, Kind, Label, Names, is_unknown
+from mudline.language.keywords.values import UNKNOWN, WHOLE_KINDS, Equation, Kind, Label, Names, is_unknown
 from mudline.language.syntax.rows import read_number
 
 if TYPE_CHECKING:
@@ -334,7 +335,7 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
         evaluator.blocks = Blocks.ALWAYS if section.name == "MODEL" else Blocks.NEVER
         for j, block in enumerate(section.blocks if section.name != DEFINING else ()):
             evaluator.where = Where(i, j)
-            section.blocks[j] = evaluator.part(block, ())
+            section.blocks[j] = rebuilt(block, evaluator.changed, (Equation, Label, Table))
     noticed = parameters.problems
     if evaluator.lacks_parameter:
         noticed = [replace(problem, blocks=Blocks.ALWAYS) for problem in noticed]
@@ -350,43 +351,22 @@ class _Evaluator:
         self.blocks = Blocks.ALWAYS
         self.where = Where(0)
 
-    def part(self, part: Any, path: Path) -> Any:
-        """Return a part without equations; the same object if it has none."""
-        changed: dict[str, object] = {}
-        kind: type[Part] = type(part)
-        for slot in record_schema(kind).slots:
-            value = getattr(part, slot.name)
-            new = self._value(value, slot, (*path, slot.order if slot.of_list else slot.json))
-            if new is not value:
-                changed[slot.name] = new
-        return part.model_copy(update=changed) if changed else part
-
-    def _value(self, value: object, slot: FieldSpec, path: Path) -> object:
+    def changed(self, value: Equation | Label | Table, slot: FieldSpec, path: Path) -> object:
+        """Return the number that takes the place of an equation or a label, or a table with such numbers."""
         if isinstance(value, Equation):
             return self._number(value, slot.kind or Kind.REAL, slot.label, path)
         if isinstance(value, Label):
             return self._labelled(value, slot)
-        if isinstance(value, Table):
-            return self._table(value, slot, path) if value.equations or (self.labels and value.words) else value
-        if isinstance(value, Part):
-            return self.part(value, path)
-        if isinstance(value, list) and isinstance(next(iter(value), None), Part):
-            new = [self.part(item, (*path, i)) for i, item in enumerate(value)]
-            return new if any(a is not b for a, b in zip(new, value, strict=True)) else value
-        if self.labels and isinstance(value, list) and any(isinstance(item, Label) for item in value):
-            return [self._labelled(item, slot) for item in value]
-        return value
+        return self._table(value, slot, path) if value.equations or (self.labels and value.words) else value
 
-    def _labelled(self, value: object, slot: FieldSpec) -> object:
-        """Return the number of a label that `*LABEL` defines; any other value unchanged."""
-        if not isinstance(value, Label):
-            return value
-        return self.labels.get((slot.about.names or slot.about.defines, name_key(value)), value)
+    def _labelled(self, label: Label, slot: FieldSpec) -> int | Label:
+        """Return the number of a label that `*LABEL` defines; the label itself without one."""
+        return self.labels.get((slot.about.names or slot.about.defines, name_key(label)), label)
 
     def _number(self, equation: Equation, kind: Kind, label: str, path: Path) -> Value:
         """Return the value of an equation."""
         where = self.where.inside(*path)
-        whole = kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
+        whole = kind in WHOLE_KINDS
         nothing: Value = UNKNOWN
         try:
             value = self.parameters.evaluate(equation, where)

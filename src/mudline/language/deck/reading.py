@@ -17,6 +17,7 @@ from mudline.language.diagnostics import MORE, Code, Problem, Severity, Span, Wh
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import meant_in, meant_section, words_behind
 from mudline.language.keywords.fields import Comment
+from mudline.language.keywords.parsed import piece_of
 from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.language.keywords.text import TOO_WIDE, hint, instead
 from mudline.language.syntax.fields import trimmed
@@ -31,9 +32,6 @@ _DEEPLINES = frozenset({"SOIL", "TRENCH"})
 """Keywords of another program, whose columns are separated by spaces."""
 _SPACED = re.compile(r"[ \t]*[-+.\d][-+.\deE]*[ \t]+[-+.\d]")
 """Row of numbers that are separated by spaces."""
-_NOT_READ = ("lines", "unread")
-"""First step of the path to an unread line: of a block without a model, or kept by a model."""
-_ENDS = 2
 _NUMBERS = re.compile(r"(?=.*[,\d])(?:[,* ]++|[-+.\d][-+.\dED]*+)*+")
 """Rest of a line that begins with asterisks in place of a number: numbers, or asterisks behind a comma."""
 
@@ -65,8 +63,10 @@ class TextOrigin(Origin):
     def span(self, where: Where) -> Span | None:
         """Return the span of a value; without one that of its block or section."""
         block = self.read.get((where.section, where.block))
-        if where.path and where.path[0] in _NOT_READ:
-            return self._not_read(where)
+        if where.path[:1] == ("lines",):  # of a block without a model
+            first = self.tree.sections[where.section].blocks[where.block].leaves[0].span.start
+            line = self.source.line_span(self.source.position(first)[0] + int(where.path[1]))
+            return piece_of(self.source.unified, line, where.path[2:])
         if block is not None and where.path:
             return block.places.find(where.path)
         return self.head(where)
@@ -86,27 +86,6 @@ class TextOrigin(Origin):
         """Return the lines of a block below its first one, without their ends."""
         leaves = self.tree.sections[where.section].blocks[where.block].leaves
         return [line for leaf in leaves for line in _lines(self.source.unified, leaf.span)]
-
-    def kept_lines(self, section: int, block: int) -> list[str]:
-        """Return the lines that a block keeps as they are, in the order of the file."""
-        text = self.source.unified
-        return [text[slice(*span)] for span in self._kept_spans(section, block)]
-
-    def _kept_spans(self, section: int, block: int) -> list[Span]:
-        return [self.source.line_around(start) for start in sorted(self.read[section, block].places.kept)]
-
-    def _not_read(self, where: Where) -> Span:
-        """Return the span of an unread line by its number, or of a piece of the line by its first and last offset."""
-        part, number, *piece = where.path
-        at = int(number)
-        if part == "unread":
-            line = self._kept_spans(where.section, where.block)[at]
-        else:
-            first = self.tree.sections[where.section].blocks[where.block].leaves[0].span.start
-            line = self.source.line_span(self.source.position(first)[0] + at)
-        if len(piece) == _ENDS:
-            return Span(line.start + int(piece[0]), line.start + int(piece[1]))
-        return trimmed(self.source.unified, *line)
 
     def span_of(self, problem: Problem) -> Span | None:
         """Return the span of a problem; None if it has no place in the text."""

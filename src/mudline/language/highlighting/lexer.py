@@ -14,10 +14,10 @@ from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import schemas_of
-from mudline.language.syntax.fields import Field, first_key, read_line, trimmed
+from mudline.language.syntax.fields import Field, read_line, trimmed
 from mudline.language.syntax.rows import blank_separated, line_spans, spells_number
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Leaf, LeafKind, parse
+from mudline.language.syntax.tree import Leaf, LeafKind, is_data, parse
 
 Found = tuple[Span, _TokenType]
 
@@ -83,12 +83,11 @@ def _tokens(written: str) -> Iterator[Found]:
 
 def _leaf(text: str, leaf: Leaf, declared: type[Block] | None) -> Iterator[Found]:
     settings = _settings(declared) if declared else {}
-    undecided = leaf.kind is LeafKind.UNDECIDED and first_key(text, leaf.span) not in settings
-    if leaf.kind is LeafKind.COMMENT or undecided:
-        yield trimmed(text, *leaf.span), Comment.Single
-    elif leaf.kind is not LeafKind.BLANK:
+    if is_data(text, leaf, settings):
         for line in line_spans(text, leaf.span):
             yield from _line(text, line, settings, slashes=declared is not None and declared.slashes)
+    elif leaf.kind is not LeafKind.BLANK:
+        yield trimmed(text, *leaf.span), Comment.Single
 
 
 def _line(text: str, line: Span, settings: dict[str, set[str]], *, slashes: bool) -> Iterator[Found]:

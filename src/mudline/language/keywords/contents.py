@@ -74,8 +74,6 @@ def _holds_keepers(slot: FieldSpec) -> bool:
 
 def kept_places(part: Part) -> Iterator[tuple[Path, str]]:
     """Yield the lines that a part and its inner parts keep, with their paths."""
-    if not keeps_lines(type(part)):
-        return
     inner = ((path, value) for path, _, value in part.walk(_holds_keepers) if isinstance(value, Part))
     for path, keeper in chain([((), part)], inner):
         for number, line in enumerate(getattr(keeper, "unread", ())):

@@ -405,7 +405,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
     return schema
 
 
-_is_part = cache(lambda kind: issubclass(kind, Part))  # several times as fast as `issubclass` of a model
+is_part = cache(lambda kind: issubclass(kind, Part))  # several times as fast as `issubclass` of a model
 
 
 def _walk(part: Part, prefix: Path, wanted: FieldFilter | None, values: list[PartValue]) -> None:
@@ -417,7 +417,7 @@ def _walk(part: Part, prefix: Path, wanted: FieldFilter | None, values: list[Par
             if own:
                 values.append(PartValue(path, slot, item))
             kind: type[BaseModel] = type(item)
-            if _is_part(kind):
+            if is_part(kind):
                 _walk(item, path, wanted, values)
 
 

@@ -18,7 +18,7 @@ from mudline.language.keywords.model import FieldSpec, ListRow, Part, Path, Reco
 from mudline.language.keywords.table import Column, Table, from_rows
 from mudline.language.keywords.text import Value, reads_as_name
 from mudline.language.keywords.values import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
-from mudline.language.syntax.fields import Field
+from mudline.language.syntax.fields import Field, trimmed
 from mudline.language.syntax.grammars import ROW, Content
 from mudline.language.syntax.rows import RawRows, read_rows, row_fields, row_starts, stacked
 
@@ -151,14 +151,14 @@ def _known(slot: FieldSpec, value: object) -> Any:
 class Places:
     """Spans by path. Tables store only the starts of their runs; a row is looked up on demand.
 
-    `kept` has the offsets of lines that are passed through unchanged.
+    `kept` has the spans of lines that are passed through unchanged, by their paths.
     """
 
     text: str
     block: Span
     spans: dict[Path, Span] = field(default_factory=dict)
     runs: dict[Path, list[tuple[int, Span]]] = field(default_factory=dict)
-    kept: frozenset[int] = frozenset()
+    kept: dict[Path, Span] = field(default_factory=dict)
     _lines: dict[Span, array[int]] = field(default_factory=dict)
 
     __repr__ = short_repr
@@ -170,6 +170,11 @@ class Places:
         for name, field_ in zip(names, fields, strict=False):
             self.spans[*path, name] = field_.span
 
+    @property
+    def kept_starts(self) -> frozenset[int]:
+        """Offsets of the lines that are passed through unchanged."""
+        return frozenset(span.start for span in self.kept.values())
+
     def find(self, path: Path) -> Span:
         """Return the span of a value; for a value that was left out, the span of the nearest enclosing object."""
         for length in range(len(path), 0, -1):
@@ -178,6 +183,8 @@ class Places:
                 return self.spans[inner]
             if inner in self.runs:
                 return self._cell(self.runs[inner], path[length:])
+            if inner in self.kept:
+                return piece_of(self.text, self.kept[inner], path[length + 1 :])  # behind "text"
         return self.block
 
     def has(self, path: Path) -> bool:
@@ -210,7 +217,8 @@ class Places:
         """Return the places in a longer text that contains this text at the offset `by`."""
         spans = {path: span.moved(by) for path, span in self.spans.items()}
         runs = {path: [(row, span.moved(by)) for row, span in starts] for path, starts in self.runs.items()}
-        return Places(text, self.block.moved(by), spans, runs, frozenset(at + by for at in self.kept))
+        kept = {path: span.moved(by) for path, span in self.kept.items()}
+        return Places(text, self.block.moved(by), spans, runs, kept)
 
     def _cell(self, runs: list[tuple[int, Span]], inner: Path) -> Span:
         row = int(inner[0]) if inner else 0
@@ -233,6 +241,13 @@ class Places:
         return self._lines[run]
 
 
+def piece_of(text: str, line: Span, ends: Path) -> Span:
+    """Return the span of an unread line without outer blanks, or of a piece of it by its first and last offset."""
+    if ends:
+        return Span(line.start + int(ends[0]), line.start + int(ends[1]))
+    return trimmed(text, *line)
+
+
 class Between(NamedTuple):
     """Comment or `kept` line between other lines; `text` is that of a comment without its C."""
 
@@ -242,11 +257,12 @@ class Between(NamedTuple):
     kept: bool = False
 
 
-def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRecord) -> list[str]:
+def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRecord, places: Places) -> list[str]:
     """Add each comment to the innermost record with lines on both sides of it, before the item that follows.
 
     A kept line is added to the innermost record that can keep it and begins before it; so is a comment that follows a
-    kept line there. Returns the texts of the comments behind the last line of the block: they belong to the next block.
+    kept line there. The spans of kept lines are added to `places`. Returns the texts of the comments behind the last
+    line of the block: they belong to the next block.
     """
     trailing: list[str] = []
     held: dict[int, tuple[ParsedRecord, list[Between]]] = {}
@@ -264,7 +280,7 @@ def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRe
         else:
             trailing.append(comment.text)
     for record, lines in held.values():
-        _write(record, lines)
+        _write(record, lines, places)
     return trailing
 
 
@@ -279,7 +295,7 @@ def _path(block: ParsedRecord, position: int, *, within: bool) -> list[ParsedRec
         path.append(inner[at])
 
 
-def _write(record: ParsedRecord, lines: list[Between]) -> None:
+def _write(record: ParsedRecord, lines: list[Between], places: Places) -> None:
     """Add lines to the values of a record, each before the item that follows it in the text.
 
     Settings may be written in another order than read. Comments come first, then all lines from the first kept one on.
@@ -295,9 +311,14 @@ def _write(record: ParsedRecord, lines: list[Between]) -> None:
     for before, line in sorted(zip(placed, lines, strict=True)):
         kept_before = before if line.kept else kept_before
         if kept_before == before:
-            texts = [each.removesuffix("\r") for each in line.text.removesuffix("\n").split("\n")]
-            texts = texts if line.kept else [f"C{line.text}"]
-            record.values.setdefault("unread", []).extend({"before": before, "text": text} for text in texts)
+            unread = record.values.setdefault("unread", [])
+            start = line.span.start
+            for written in line.text.removesuffix("\n").split("\n") if line.kept else [f"C{line.text}"]:
+                text = written.removesuffix("\r")
+                if line.kept:
+                    places.kept[*record.path, "unread", len(unread)] = Span(start, start + len(text))
+                unread.append({"before": before, "text": text})
+                start += len(written) + 1
         else:
             record.values.setdefault("comments", []).append({"before": before, "text": line.text})
 

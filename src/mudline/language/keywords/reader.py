@@ -145,14 +145,13 @@ class _BlockParser:
                 self._keep_all({mismatch.found for mismatch in mismatches if mismatch.found}, contents)
                 mismatches = [mismatch for mismatch in mismatches if not mismatch.found]
         end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
-        kept = frozenset(line.start for kept in self.kept for line in line_spans(self.text, kept.span))
-        self.places = Places(self.text, trimmed(self.text, *self.raw.head.span), kept=kept)
+        self.places = Places(self.text, trimmed(self.text, *self.raw.head.span))
         slashes = self.declared.slashes
         builder = Builder(self.places, self.problems, slashes=slashes, end=end, older=self.raw.older)
         for mismatch in mismatches:
             self._report(mismatch)
         built = builder.build(self.declared, node)
-        trailing = attach(self.comments, self.kept, built) if self.comments or self.kept else []
+        trailing = attach(self.comments, self.kept, built, self.places) if self.comments or self.kept else []
         self.lost += builder.lost + len(self.kept)
         model = self._model(built)
         problems = merge_per_line(self.text, self.problems)

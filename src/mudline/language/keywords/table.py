@@ -14,7 +14,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError, to_json
 
 from mudline.basics.short_repr import counted
 from mudline.language.diagnostics import Span
-from mudline.language.keywords.values import Equation, Kind, Label
+from mudline.language.keywords.values import WHOLE_KINDS, Equation, Kind, Label
 from mudline.language.syntax.rows import RawRows, read_rows
 
 Cell = float | int | str | None
@@ -46,7 +46,7 @@ class Column(NamedTuple):
     @property
     def whole(self) -> bool:
         """True if the numbers are whole."""
-        return self.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
+        return self.kind in WHOLE_KINDS
 
     def fault(self, word: str) -> str:
         """Return the fault of a field that is not a number, or ""."""

@@ -14,7 +14,7 @@ from mudline.language.codes.lines import SYN001, SYN004, SYN005
 from mudline.language.diagnostics import Problem, Repair, Severity, Span
 from mudline.language.keywords.model import FieldSpec, record_schema
 from mudline.language.keywords.table import LARGEST_WHOLE, not_whole
-from mudline.language.keywords.values import Equation, Kind, Label
+from mudline.language.keywords.values import WHOLE_KINDS, Equation, Kind, Label
 from mudline.language.syntax.fields import Field, is_one_field, trimmed
 from mudline.language.syntax.rows import blank_separated, read_number, spells_number
 
@@ -37,8 +37,7 @@ _BARE_EXPONENT = re.compile(r"([-+]?(?:[0-9]+\.[0-9]*|\.[0-9]+))([-+][0-9]{1,3})
 _BLANKS = "\xa0\u2007\u2009\u200b\u202f\ufeff"
 """Blanks that word processors put around a number, and invisible marks."""
 _NAME, _TITLE, _OTHER, _IDENT = Kind.NAME, Kind.TITLE, Kind.OTHER, Kind.IDENT
-_WHOLE_KINDS = (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
-_NUMBERS = (*_REAL, *_WHOLE_KINDS)
+_NUMBERS = (*_REAL, *WHOLE_KINDS)
 _BEGINS = frozenset("+-.0123456789")
 
 
@@ -71,7 +70,7 @@ def _number(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
         if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not looks_numeric(field.text):
             return field.text
         raise UnreadableError(not_a_number(field.text, field.span, slot.label))
-    if slot.kind not in _WHOLE_KINDS:
+    if slot.kind not in WHOLE_KINDS:
         return number
     if not number.is_integer() or abs(number) > LARGEST_WHOLE:
         raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
@@ -152,8 +151,7 @@ def semicolons(text: str, fields: list[Field]) -> Problem | None:
     if not all(map(spells_number, numbers)):
         return None
     message = "the numbers are separated by semicolons: write commas between them"
-    repair = Repair("unsafe", f"write {', '.join(numbers)}", ((span, ", ".join(numbers)),))
-    return Problem(SYN003, message, span, repair=repair)
+    return Problem(SYN003, message, span, repair=instead(", ".join(numbers), span))
 
 
 def missing_comma(fields: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
@@ -171,7 +169,7 @@ def missing_comma(fields: list[Field], kinds: list[Kind | None], fewest: int) ->
     first, second = words[0][:2]
     span, repaired = filled[joined[0]].span, ", ".join(words[0])
     message = f"a comma is missing between {first} and {second}: write {repaired}"
-    return Problem(SYN003, message, span, repair=Repair("unsafe", f"write {repaired}", ((span, repaired),)))
+    return Problem(SYN003, message, span, repair=instead(repaired, span))
 
 
 def _is_tight(first: Field, second: Field) -> bool:
@@ -267,13 +265,13 @@ def not_a_number(text: str, span: Span, label: str, kind: Kind | None = None) ->
     if bare := _BARE_EXPONENT.fullmatch(text):
         repaired = f"{bare[1]}E{bare[2]}"
         message = f"{text!r} is not a number: if {bare[2]} is its exponent, write {repaired} for {label}"
-        return Problem(SYN002, message, span, repair=Repair("unsafe", f"write {repaired}", ((span, repaired),)))
+        return Problem(SYN002, message, span, repair=instead(repaired, span))
     plain = _plain(text)
     if not plain:
         return Problem(SYN002, _fault(text, label, kind), span)
     odd = next(char for char in text if not char.isascii())
     message = f"{cut(text, 60)!r} is not a number, as it has the character U+{ord(odd):04X}: write {plain} for {label}"
-    return Problem(SYN002, message, span, repair=Repair("unsafe", f"write {plain}", ((span, plain),)))
+    return Problem(SYN002, message, span, repair=instead(plain, span))
 
 
 def _plain(text: str) -> str:

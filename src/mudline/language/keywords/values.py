@@ -77,6 +77,10 @@ class Kind(Enum):
     OTHER = "another value"
 
 
+WHOLE_KINDS = (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
+"""Kinds whose numbers are whole."""
+
+
 def _whole(value: object) -> object:
     return int(value) if isinstance(value, float) and value.is_integer() else value
 

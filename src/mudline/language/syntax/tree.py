@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from bisect import bisect_right
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache, cached_property, lru_cache
@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from mudline.basics.short_repr import short_repr
 from mudline.language.diagnostics import Span, Where
+from mudline.language.syntax.fields import first_key
 from mudline.language.syntax.grammars import parser
 from mudline.language.syntax.source import CONTROLS, Source
 
@@ -176,6 +177,17 @@ _WORD_WITH_C = re.compile("C[A-Za-z]")
 def is_comment(line: str, *, words: bool = False) -> bool:
     """Return True for a comment; with `words` also for a line with C and a letter in column 1, which may be one."""
     return bool(_COMMENT.match(line) or (words and _WORD_WITH_C.match(line)))
+
+
+def is_data(text: str, leaf: Leaf, keys: Container[str] | None) -> bool:
+    """Return True for a leaf of a block that is neither blank nor a comment.
+
+    A line with C and a letter in column 1 is data if it begins with one of the `keys` of the keyword; always without
+    keys, which are those of a keyword whose lines are not read.
+    """
+    if leaf.kind is LeafKind.UNDECIDED and keys is not None:
+        return first_key(text, leaf.span) in keys
+    return leaf.kind not in (LeafKind.COMMENT, LeafKind.BLANK)
 
 
 def data_lines(lines: Iterable[str], *, words: bool = False) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
@@ -12,14 +12,13 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.basics.short_repr import counted, short_repr
 from mudline.basics.spelling import Effort, edits, equally_near, nearest, same_marks
 from mudline.language.codes.fields import SYN016
-from mudline.language.deck.model import Deck, NamedPlace, Opaque, raw_lines
+from mudline.language.deck.model import Deck, NamedPlace, Opaque, raw_lines, unread_lines
 from mudline.language.deck.parameters import EvaluatedDeck, all_labels_read, bare, folded, labels_given, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import meant_in, suggest_keyword
-from mudline.language.keywords.contents import is_read, kept_places
-from mudline.language.keywords.model import ListRow, Path
+from mudline.language.keywords.model import ListRow
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import hint, shown
 from mudline.language.keywords.values import Names
@@ -129,20 +128,12 @@ class Context:
     @cached_property
     def unread_lines(self) -> list[tuple[Where, str, str]]:
         """Lines of the deck itself that are not read, without comments: place, keyword and text."""
-        deck, found = self.written, list[tuple[Where, str, str]]()
-        for at, _, block in deck.alone.every_block():
-            lines: Iterable[tuple[Path, str]]
-            if type(block) is Opaque:
-                lines = ((("lines", n), line) for n, line in enumerate(block.lines))
-            elif is_read(block):
-                continue
-            elif isinstance(deck.origin, TextOrigin):
-                lines = ((("unread", n), line) for n, line in enumerate(deck.origin.kept_lines(at.section, at.block)))
-            else:
-                lines = kept_places(block)
-            data = ((path, line) for path, line in lines if not is_comment(line, words=True))
-            found += ((at._replace(path=path), block.keyword, line) for path, line in data)
-        return found
+        return [
+            (where._replace(path=path), block.keyword, line)
+            for where, _, block in self.written.alone.every_block()
+            for path, line in unread_lines(block)
+            if not is_comment(line, words=True)
+        ]
 
     @cached_property
     def unread_text(self) -> str:
