@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 from itertools import takewhile
-from typing import NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias
 
 from mudline.basics.limits import MOST_MATCHED
 from mudline.editing.comparison.model import Difference, Pair, Side, Value, plain
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, Rows, record_schema
+from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Path, Record, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import field_text, joined
 from mudline.language.syntax.tree import data_lines
@@ -33,15 +34,27 @@ Flat: TypeAlias = dict[str, ComparedValue]
 
 def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
     """Return all values of the blocks of a keyword by path; a named record is found by its name in any block."""
-    return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
+    naming = _Naming(side, later_wins=any(block.facts.later_wins for _, block in blocks))
+    flat: Flat = {}
+    carried: Flat = {}
+    for number, (where, block) in enumerate(blocks, 1):
+        keyed = next(filter(_is_keyed, record_schema(type(block)).slots), None)
+        own = naming.add(block, where, {}, without=keyed)
+        if keyed is None:  # the values of a second block get its number
+            flat |= own if number == 1 else {f"#{number}/{path}": entry for path, entry in own.items()}
+            continue
+        carried |= {path: own[path] for name in block.facts.carried if (path := name.rstrip("_")) in own}
+        for index, record in enumerate(getattr(block, keyed.name) or []):
+            place = where.inside(keyed.json, index)
+            name = naming.open(record, place, "", flat)
+            flat |= {f"{name}/{path}": entry for path, entry in (carried | own).items()}
+            naming.add(record, place, flat, f"{name}/", without=key_slot(type(record)))
+    return flat
 
 
 def record_values(side: Side, record: Record, where: Where) -> dict[str, object]:
     """Return the values of one record of an element by path, without the name of the record."""
-    flattening = _Flattening(side, later_wins=True)
-    key = key_slot(type(record))
-    values: Flat = {}
-    flattening.part(record, where, "", values, leave_out=key.name if key else "")
+    values = _Naming(side, later_wins=True).add(record, where, {}, without=key_slot(type(record)))
     return {path: entry.shown for path, entry in values.items()}
 
 
@@ -62,80 +75,59 @@ def _identity(record: Record) -> str | None:
     return ", ".join(words) or None
 
 
-class _Flattening:
+class _Naming:
+    """Paths of values with the names of records, where they have names, in place of indexes."""
+
     def __init__(self, side: Side, *, later_wins: bool) -> None:
         self.side = side
         self.later_wins = later_wins
-        self.counts: dict[str, int] = {}
+        self.counts: Counter[str] = Counter()
+        self.sticky: dict[Where, object] = {}
 
-    def blocks(self, blocks: list[tuple[Where, Block]]) -> Flat:
-        flat: Flat = {}
-        carried: dict[str, ComparedValue] = {}
-        for where, block in blocks:
-            keyed = next(filter(_is_keyed, record_schema(type(block)).slots), None)
-            own: Flat = {}
-            self.part(block, where, "", own, leave_out=keyed.name if keyed else "")
-            if keyed is None:  # the values of a second block get its number
-                count = self.counts[""] = self.counts.get("", 0) + 1
-                flat |= own if count == 1 else {f"#{count}/{path}": entry for path, entry in own.items()}
+    def add(self, part: Part, where: Where, flat: Flat, start: str = "", *, without: FieldSpec | None) -> Flat:
+        """Add the values of a part, `without` one of its fields, below the path `start`; return all values."""
+        inside: dict[Path, tuple[str, FieldSpec | None]] = {(): (start, without)}
+        for path, slot, value in part.walk():
+            index = path[-1]
+            holder = path[:-2] if isinstance(index, int) else path[:-1]
+            before, left_out = inside.get(holder, ("", slot))  # a part that is left out is not entered
+            if slot is left_out:
                 continue
-            for name in block.facts.carried:
-                path = name.rstrip("_")
-                carried |= {path: own[path]} if path in own else {}
-                own = {**carried, **own}
-            self._records(getattr(block, keyed.name) or [], where, keyed, "", flat, own)
+            name, place = before + slot.json, where.inside(*path)
+            if isinstance(value, Record):
+                name = self.open(value, place, f"{name}/", flat)
+                inside[path] = f"{name}/", key_slot(type(value))
+                continue
+            if isinstance(index, int):
+                name = f"{name}/{index + 1}"
+            if isinstance(value, Part):
+                inside[path] = f"{name}/", None
+            elif isinstance(value, Table):
+                flat.update(_table(value, slot, place, name))
+            else:
+                flat[name] = _scalar(value, place)
         return flat
 
-    def part(self, part: Part, where: Where, prefix: str, flat: Flat, leave_out: str = "") -> None:
-        """Add the declared fields of a part, below a prefix."""
-        for slot in record_schema(type(part)).slots:
-            value = getattr(part, slot.name, None)
-            if slot.name != leave_out and value is not None:
-                self._value(value, slot, where.inside(slot.json), prefix + slot.json, flat)
-
-    def _value(self, value: object, slot: FieldSpec, where: Where, path: str, flat: Flat) -> None:
-        if isinstance(value, Table):
-            flat.update(_table(value, slot, where, path))
-        elif isinstance(value, Part):
-            self.part(value, where, path + "/", flat)
-        elif isinstance(value, list) and value and isinstance(value[0], Record):
-            self._records(cast("list[Record]", value), where._replace(path=where.path[:-1]), slot, path, flat, {})
-        elif isinstance(value, list):
-            for index, item in enumerate(value):
-                self._value(item, slot, where.inside(index), f"{path}/{index + 1}", flat)
-        else:
-            flat[path] = _scalar(value, where)
-
-    def _records(
-        self, records: list[Record], where: Where, slot: FieldSpec, prefix: str, flat: Flat, shared: Flat
-    ) -> None:
-        """Add the records of a list, by name if they have names, else by position."""
-        sticky: object = None
-        start = f"{prefix}/" if prefix else ""
-        for index, record in enumerate(records):
-            place = where.inside(slot.json, index)
-            key = key_slot(type(record))
-            path = start + self._title(record, key, index, flat, start)
-            values: Flat = {}
-            if record.sticky:
-                sticky = getattr(record, record.sticky, None) or sticky
-                declared = next(s for s in record_schema(type(record)).slots if s.name == record.sticky)
-                values[f"{path}/{declared.json}"] = _scalar(sticky or declared.about.default, place)
-            self.part(record, place, f"{path}/", values, leave_out=key.name if key else "")
-            flat[path] = ComparedValue(None, None, place)
-            flat |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
-
-    def _title(self, record: Record, key: FieldSpec | None, index: int, flat: Flat, start: str) -> str:
+    def open(self, record: Record, where: Where, start: str, flat: Flat) -> str:
+        """Add a record of a list, and the sticky value that holds for it; return its path."""
+        key, index = key_slot(type(record)), int(where.path[-1])
         name = _identity(record) if key is None else getattr(record, key.name, None)
         title = folded(str(name)) if name is not None else "all" if key and key.json == "set" else str(index + 1)
         self.side.names.setdefault(title, "ALL" if name is None and title == "all" else str(name or title))
+        path = start + title
         if self.later_wins:
-            if start + title in flat:
-                for path in [path for path in flat if path == start + title or path.startswith(f"{start}{title}/")]:
-                    del flat[path]
-            return title
-        count = self.counts[start + title] = self.counts.get(start + title, 0) + 1
-        return title if count == 1 else f"{title}#{count}"
+            for old in [old for old in flat if old == path or old.startswith(f"{path}/")] if path in flat else ():
+                del flat[old]
+        else:
+            self.counts[path] += 1
+            path += f"#{self.counts[path]}" if self.counts[path] > 1 else ""
+        flat[path] = ComparedValue(None, None, where)
+        if record.sticky:
+            declared, given = record.at((record.sticky,))
+            of_list = where._replace(path=where.path[:-1])
+            sticky = self.sticky[of_list] = given or self.sticky.get(of_list)
+            flat[f"{path}/{record.sticky}"] = _scalar(sticky or declared.about.default, where)
+        return path
 
 
 def _is_keyed(slot: FieldSpec) -> bool:
