@@ -123,10 +123,10 @@ class _Naming:
             path += f"#{self.counts[path]}" if self.counts[path] > 1 else ""
         flat[path] = ComparedValue(None, None, where)
         if record.sticky:
-            declared, given = record.at((record.sticky,))
+            declared = next(slot for slot in record_schema(type(record)).slots if slot.name == record.sticky)
             of_list = where._replace(path=where.path[:-1])
-            sticky = self.sticky[of_list] = given or self.sticky.get(of_list)
-            flat[f"{path}/{record.sticky}"] = _scalar(sticky or declared.about.default, where)
+            sticky = self.sticky[of_list] = getattr(record, declared.name, None) or self.sticky.get(of_list)
+            flat[f"{path}/{declared.json}"] = _scalar(sticky or declared.about.default, where)
         return path
 
 

@@ -3,31 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from mudline.basics.spelling import Effort, nearest
 from mudline.language.codes.lines import SYN009, SYN010
 from mudline.language.codes.references import REF001, REF013
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded
+from mudline.language.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded, unquoted
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import FieldSpec
 from mudline.language.keywords.text import hint, shown, suggestion
 from mudline.language.keywords.values import Names, is_unknown, known_name
 from mudline.language.syntax.tree import canonical_name
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.preprocessor import Parameters as ParameterBlock
-
-
-def unquoted(text: str) -> str:
-    """Return a text without the double quotes around it."""
-    return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
+    from mudline.language.keywords.library.preprocessor import VariedBlock
 
 
 def name_key(name: str) -> str:
     """Return the name of a variation in the form in which names are compared."""
     return folded(" ".join(unquoted(name).split()))
+
+
+def keyword_of(varied: VariedBlock) -> str:
+    """Return the keyword of an action."""
+    return canonical_name("*" + ",".join(map(unquoted, varied.keyword or ())))
+
+
+def section_of(varied: VariedBlock) -> str:
+    """Return the section that an action names, or ""."""
+    return canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
 
 
 def placeholders(template: str) -> list[str]:
@@ -100,9 +107,7 @@ def misspelt_actions(deck: Deck) -> Iterator[Problem]:
     for where, block in deck.blocks("VARIATION", DEFINING):
         for i, variation in enumerate(block.variations):
             for j, varied in enumerate(variation.blocks):
-                words = cast("list[str] | None", varied.keyword) or ()
-                keyword = canonical_name("*" + ",".join(map(unquoted, words)))
-                section = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
+                keyword, section = keyword_of(varied), section_of(varied)
                 place = where.inside("variations", i, "blocks", j)
                 given = [
                     (SYN009, "keyword *", keyword, catalogue.keywords(), of_keywords, place.inside("keyword", 0)),
@@ -117,13 +122,12 @@ def misspelt_actions(deck: Deck) -> Iterator[Problem]:
 def _in_names(deck: Deck) -> Iterator[_Named]:
     """Yield the parameters in names of folders and files."""
     for where, block in deck.blocks("COMBINATIONS", DEFINING):
-        templates = [(block.directory, where.inside("directory"))]
-        for i, combination in enumerate(block.combinations):
-            place = where.inside("combinations", i)
-            templates.append((combination.subdirectory, place.inside("subdirectory")))
-            templates.append((combination.filename, place.inside("filename")))
-        for text, place in templates:
-            yield from ((name, place) for name in placeholders(unquoted(text or "")))
+        for path, _, template in block.walk(_is_template):
+            yield from ((name, where.inside(*path)) for name in placeholders(unquoted(template)))
+
+
+def _is_template(slot: FieldSpec) -> bool:
+    return slot.key in ("DIRECTORY", "SUBDIRECTORY", "FILENAME")
 
 
 def _parameters(deck: Deck) -> dict[str, str] | None:

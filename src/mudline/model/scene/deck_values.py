@@ -13,7 +13,7 @@ from pathlib import Path, PurePath
 from mudline.basics.files import look
 from mudline.basics.outside import is_made_by_system, is_refused, project_of
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import Parameters, bare, folded
+from mudline.language.deck.parameters import Parameters, bare, folded, unquoted
 from mudline.language.diagnostics import Severity, Span, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block, Row, record_schema
@@ -43,10 +43,7 @@ def number(part: object, name: str, default: float = math.nan) -> float:
 
 def file_name(written: str) -> str:
     """Return a file's name as a deck writes it, without quotes and with `/` between folders."""
-    name = written.strip()
-    if len(name) > 1 and name[0] == name[-1] == '"':
-        name = name[1:-1]
-    return name.replace("\\", "/")
+    return unquoted(written.strip()).replace("\\", "/")
 
 
 def find_file(folder: Path | None, written: str) -> Path | None:
