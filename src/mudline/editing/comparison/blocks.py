@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
-from itertools import takewhile
 from typing import NamedTuple, TypeAlias
 
 from mudline.basics.limits import MOST_MATCHED
+from mudline.basics.spelling import common_start
 from mudline.editing.comparison.model import Difference, Pair, Side, Value, plain
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
@@ -239,21 +239,15 @@ def _lines(side: Side) -> dict[_Name, _Lines]:
 def _opaque(name: _Name, before: _Lines, after: _Lines, pair: Pair) -> Iterator[Difference]:
     section, keyword = name
     title = _group(name) if keyword else f"${section}" if section else "before the first section"
-    start = _alike(before, after)
-    before, after = before[start:], after[start:]
-    end = _alike(before[::-1], after[::-1])
-    before, after = before[: len(before) - end], after[: len(after) - end]
-    edits: Sequence[tuple[str, int, int, int, int]] = [("replace", 0, len(before), 0, len(after))]
-    if len(before) + len(after) <= MOST_MATCHED:
-        old, new = ([line for line, _ in lines] for lines in (before, after))
+    old, new = ([line for line, _ in lines] for lines in (before, after))
+    start = common_start(old, new)
+    end = common_start(old[start:][::-1], new[start:][::-1])
+    before, after = before[start : len(before) - end], after[start : len(after) - end]
+    old, new = old[start : len(old) - end], new[start : len(new) - end]
+    edits: Sequence[tuple[str, int, int, int, int]] = [("replace", 0, len(old), 0, len(new))]
+    if len(old) + len(new) <= MOST_MATCHED:
         edits = SequenceMatcher(None, old, new, autojunk=False).get_opcodes()
     for tag, i, i_end, j, j_end in edits:
         if tag != "equal":
             yield from (pair.difference(title, f"{title}/lines", held, None) for held in before[i:i_end])
             yield from (pair.difference(title, f"{title}/lines", None, held) for held in after[j:j_end])
-
-
-def _alike(before: _Lines, after: _Lines) -> int:
-    """Return the number of equal lines at the beginning of two lists."""
-    same = takewhile(lambda both: both[0][0] == both[1][0], zip(before, after, strict=False))
-    return sum(1 for _ in same)
