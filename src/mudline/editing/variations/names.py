@@ -12,6 +12,7 @@ from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded, unquoted
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import of_keys
 from mudline.language.keywords.model import FieldSpec
 from mudline.language.keywords.text import hint, shown, suggestion
 from mudline.language.keywords.values import Names, is_unknown, known_name
@@ -62,14 +63,17 @@ def undefined_variation(name: str, known: Iterable[str], effort: Effort, where: 
 
 # ------------------------------------------------------------------------------------------------------ in any deck
 
-_Named = tuple[str, Where]
-"""A name, and its place."""
+CALLS = of_keys("VARIATIONS")
+"""Predicate of the field in which a combination names variations."""
 
 
 def undefined_parameters(deck: Deck) -> Iterator[Problem]:
     """Yield parameters in PARA=, or as `%name%` in a folder or file name, that `*PARAMETERS` does not define."""
     varied = (name for name in deck.names() if name.kind is Names.PARAMETER and name.role == "names")
-    named = [*((unquoted(name.name), name.where) for name in varied), *_in_names(deck)]
+    named = [(unquoted(name.name), name.where) for name in varied]
+    for where, block in deck.blocks("COMBINATIONS", DEFINING):
+        for path, _, template in block.walk(of_keys("DIRECTORY", "SUBDIRECTORY", "FILENAME")):
+            named += [(name, where.inside(*path)) for name in placeholders(unquoted(template))]
     known = _parameters(deck) if named else None
     effort = Effort()
     for name, where in named:
@@ -80,11 +84,9 @@ def undefined_parameters(deck: Deck) -> Iterator[Problem]:
 def undefined_variations(deck: Deck) -> Iterator[Problem]:
     """Yield variations in VARIATIONS= that no `*VARIATION` defines; an unread `*EXCEL VARIATIONS` may define any."""
     called = [
-        (name, where.inside("combinations", i, "variations", j, "names", number))
+        (name, where.inside(*path))
         for where, block in deck.blocks("COMBINATIONS", DEFINING)
-        for i, combination in enumerate(block.combinations)
-        for j, line in enumerate(combination.variations)
-        for number, name in enumerate(line.names or ())
+        for path, _, name in block.walk(CALLS)
     ]
     present = deck.keywords(DEFINING)
     if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
@@ -105,29 +107,21 @@ def misspelt_actions(deck: Deck) -> Iterator[Problem]:
     """Yield unknown keywords and sections in KEYWORD= and SECTION= of an action that resemble known ones."""
     of_keywords, of_sections = Effort(), Effort()
     for where, block in deck.blocks("VARIATION", DEFINING):
-        for i, variation in enumerate(block.variations):
-            for j, varied in enumerate(variation.blocks):
-                keyword, section = keyword_of(varied), section_of(varied)
-                place = where.inside("variations", i, "blocks", j)
-                given = [
-                    (SYN009, "keyword *", keyword, catalogue.keywords(), of_keywords, place.inside("keyword", 0)),
-                    (SYN010, "section $", section, catalogue.SECTIONS, of_sections, place.inside("section")),
-                ]
-                for code, what, name, known, effort, at in given:
-                    if name and name not in known and (near := nearest(name, known, effort)):
-                        message = f"{what}{name} is not known{hint(near)}: correct it"
-                        yield Problem(code, message, None, Severity.WARNING, at)
+        for path, _, varied in block.walk(_is_action):
+            keyword, section = keyword_of(varied), section_of(varied)
+            place = where.inside(*path)
+            given = [
+                (SYN009, "keyword *", keyword, catalogue.keywords(), of_keywords, place.inside("keyword", 0)),
+                (SYN010, "section $", section, catalogue.SECTIONS, of_sections, place.inside("section")),
+            ]
+            for code, what, name, known, effort, at in given:
+                if name and name not in known and (near := nearest(name, known, effort)):
+                    message = f"{what}{name} is not known{hint(near)}: correct it"
+                    yield Problem(code, message, None, Severity.WARNING, at)
 
 
-def _in_names(deck: Deck) -> Iterator[_Named]:
-    """Yield the parameters in names of folders and files."""
-    for where, block in deck.blocks("COMBINATIONS", DEFINING):
-        for path, _, template in block.walk(_is_template):
-            yield from ((name, where.inside(*path)) for name in placeholders(unquoted(template)))
-
-
-def _is_template(slot: FieldSpec) -> bool:
-    return slot.key in ("DIRECTORY", "SUBDIRECTORY", "FILENAME")
+def _is_action(slot: FieldSpec) -> bool:
+    return "varied_block" in slot.record
 
 
 def _parameters(deck: Deck) -> dict[str, str] | None:

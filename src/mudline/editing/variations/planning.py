@@ -14,7 +14,7 @@ from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
 from mudline.editing.variations.cases import Action, ParameterTarget, ParameterTargets, RefusedError, Values, action_of
 from mudline.editing.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, Taken, path_fault
-from mudline.editing.variations.names import filled, name_key, placeholders, undefined_variation
+from mudline.editing.variations.names import CALLS, filled, name_key, placeholders, undefined_variation
 from mudline.language.codes import EXP001
 from mudline.language.codes.references import REF013
 from mudline.language.deck.forms import SUFFIXES
@@ -213,17 +213,16 @@ class _Planner:
     def _called(self, combination: Combination, where: Where, variations: dict[str, Cases]) -> list[Cases]:
         """Return the variations that a combination calls, each once; if it names none, all of the deck."""
         called: dict[str, Cases] = {}
-        for index, line in enumerate(combination.variations):
-            for number, name in enumerate(line.names):
-                key = name_key(name)
-                if key in variations:
-                    called[key] = variations[key]
-                elif key == "all":
-                    called |= variations
-                else:
-                    known = (cases.name for cases in variations.values())
-                    place = where.inside("variations", index, "names", number)
-                    self.problems.append(replace(undefined_variation(name, known, self.effort, place), code=EXP001))
+        for path, _, name in combination.walk(CALLS):
+            key = name_key(name)
+            if key in variations:
+                called[key] = variations[key]
+            elif key == "all":
+                called |= variations
+            else:
+                known = (cases.name for cases in variations.values())
+                problem = undefined_variation(name, known, self.effort, where.inside(*path))
+                self.problems.append(replace(problem, code=EXP001))
         return list((called if combination.variations else variations).values())
 
     def _is_valid(self, group: _CaseGroup) -> bool:
