@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from difflib import SequenceMatcher
+from functools import cache
+from itertools import groupby
 from typing import NamedTuple, TypeAlias
 
 from mudline.basics.limits import MOST_MATCHED
@@ -13,7 +15,17 @@ from mudline.editing.comparison.model import Difference, Pair, Side, Value, plai
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Path, Record, Rows, record_schema
+from mudline.language.keywords.model import (
+    Block,
+    FieldSpec,
+    ListRow,
+    Part,
+    PartValue,
+    Path,
+    Record,
+    Rows,
+    record_schema,
+)
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import field_text, joined
 from mudline.language.syntax.tree import data_lines
@@ -38,26 +50,30 @@ def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
     flat: Flat = {}
     carried: Flat = {}
     for number, (where, block) in enumerate(blocks, 1):
-        keyed = next(filter(_is_keyed, record_schema(type(block)).slots), None)
-        own = naming.add(block, where, {}, without=keyed)
+        keyed = next((slot.json for slot in record_schema(type(block)).slots if _is_keyed(slot)), None)
+        walked = block.walk()
+        own = naming.add((each for each in walked if each.path[0] != keyed), where, {}, {(): ("", None)})
         if keyed is None:  # the values of a second block get its number
             flat |= own if number == 1 else {f"#{number}/{path}": entry for path, entry in own.items()}
             continue
         carried |= {path: own[path] for name in block.facts.carried if (path := name.rstrip("_")) in own}
-        for index, record in enumerate(getattr(block, keyed.name) or []):
-            place = where.inside(keyed.json, index)
-            name = naming.open(record, place, "", flat)
-            flat |= {f"{name}/{path}": entry for path, entry in (carried | own).items()}
-            naming.add(record, place, flat, f"{name}/", without=key_slot(type(record)))
+        shared = carried | own
+        of_records = (each for each in walked if each.path[0] == keyed)
+        for path, (first, *values) in groupby(of_records, lambda each: each.path[:2]):
+            name = naming.open(first.value, where.inside(*path), "", flat)
+            flat |= {f"{name}/{inner}": entry for inner, entry in shared.items()}
+            naming.add(values, where, flat, {path: (f"{name}/", key_slot(type(first.value)))})
     return flat
 
 
 def record_values(side: Side, record: Record, where: Where) -> dict[str, object]:
     """Return the values of one record of an element by path, without the name of the record."""
-    values = _Naming(side, later_wins=True).add(record, where, {}, without=key_slot(type(record)))
+    inside: _Inside = {(): ("", key_slot(type(record)))}
+    values = _Naming(side, later_wins=True).add(record.walk(), where, {}, inside)
     return {path: entry.shown for path, entry in values.items()}
 
 
+@cache
 def key_slot(record: type[Record]) -> FieldSpec | None:
     """Return the field that identifies a record of a list: its set, or its own name."""
     slot = record_schema(record).name
@@ -75,6 +91,10 @@ def _identity(record: Record) -> str | None:
     return ", ".join(words) or None
 
 
+_Inside = dict[Path, tuple[str, FieldSpec | None]]
+"""Beginning of the paths of the values in a part, and the field that is no value but its name; by its path."""
+
+
 class _Naming:
     """Paths of values with the names of records, where they have names, in place of indexes."""
 
@@ -84,23 +104,20 @@ class _Naming:
         self.counts: Counter[str] = Counter()
         self.sticky: dict[Where, object] = {}
 
-    def add(self, part: Part, where: Where, flat: Flat, start: str = "", *, without: FieldSpec | None) -> Flat:
-        """Add the values of a part, `without` one of its fields, below the path `start`; return all values."""
-        inside: dict[Path, tuple[str, FieldSpec | None]] = {(): (start, without)}
-        for path, slot, value in part.walk():
+    def add(self, walked: Iterable[PartValue], where: Where, flat: Flat, inside: _Inside) -> Flat:
+        """Add the values of a walk `inside` some parts; return all values."""
+        for path, slot, value in walked:
             index = path[-1]
-            holder = path[:-2] if isinstance(index, int) else path[:-1]
-            before, left_out = inside.get(holder, ("", slot))  # a part that is left out is not entered
-            if slot is left_out:
+            before, name_of_record = inside[path[:-2] if isinstance(index, int) else path[:-1]]
+            if slot is name_of_record:
                 continue
             name, place = before + slot.json, where.inside(*path)
+            if isinstance(index, int) and not isinstance(value, Record):
+                name = f"{name}/{index + 1}"
             if isinstance(value, Record):
                 name = self.open(value, place, f"{name}/", flat)
                 inside[path] = f"{name}/", key_slot(type(value))
-                continue
-            if isinstance(index, int):
-                name = f"{name}/{index + 1}"
-            if isinstance(value, Part):
+            elif isinstance(value, Part):
                 inside[path] = f"{name}/", None
             elif isinstance(value, Table):
                 flat.update(_table(value, slot, place, name))
