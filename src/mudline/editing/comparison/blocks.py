@@ -2,17 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from difflib import SequenceMatcher
-from itertools import takewhile
-from typing import NamedTuple, TypeAlias, cast
+from functools import cache
+from itertools import groupby
+from typing import NamedTuple, TypeAlias
 
 from mudline.basics.limits import MOST_MATCHED
+from mudline.basics.spelling import common_start
 from mudline.editing.comparison.model import Difference, Pair, Side, Value, plain
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
-from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, Rows, record_schema
+from mudline.language.keywords.model import (
+    Block,
+    FieldSpec,
+    ListRow,
+    Part,
+    PartValue,
+    Path,
+    Record,
+    Rows,
+    record_schema,
+)
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import field_text, joined
 from mudline.language.syntax.tree import data_lines
@@ -33,18 +46,34 @@ Flat: TypeAlias = dict[str, ComparedValue]
 
 def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
     """Return all values of the blocks of a keyword by path; a named record is found by its name in any block."""
-    return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
+    naming = _Naming(side, later_wins=any(block.facts.later_wins for _, block in blocks))
+    flat: Flat = {}
+    carried: Flat = {}
+    for number, (where, block) in enumerate(blocks, 1):
+        keyed = next((slot.json for slot in record_schema(type(block)).slots if _is_keyed(slot)), None)
+        walked = block.walk()
+        own = naming.add((each for each in walked if each.path[0] != keyed), where, {}, {(): ("", None)})
+        if keyed is None:  # the values of a second block get its number
+            flat |= own if number == 1 else {f"#{number}/{path}": entry for path, entry in own.items()}
+            continue
+        carried |= {path: own[path] for name in block.facts.carried if (path := name.rstrip("_")) in own}
+        shared = carried | own
+        of_records = (each for each in walked if each.path[0] == keyed)
+        for path, (first, *values) in groupby(of_records, lambda each: each.path[:2]):
+            name = naming.open(first.value, where.inside(*path), "", flat)
+            flat |= {f"{name}/{inner}": entry for inner, entry in shared.items()}
+            naming.add(values, where, flat, {path: (f"{name}/", key_slot(type(first.value)))})
+    return flat
 
 
 def record_values(side: Side, record: Record, where: Where) -> dict[str, object]:
     """Return the values of one record of an element by path, without the name of the record."""
-    flattening = _Flattening(side, later_wins=True)
-    key = key_slot(type(record))
-    values: Flat = {}
-    flattening.part(record, where, "", values, leave_out=key.name if key else "")
+    inside: _Inside = {(): ("", key_slot(type(record)))}
+    values = _Naming(side, later_wins=True).add(record.walk(), where, {}, inside)
     return {path: entry.shown for path, entry in values.items()}
 
 
+@cache
 def key_slot(record: type[Record]) -> FieldSpec | None:
     """Return the field that identifies a record of a list: its set, or its own name."""
     slot = record_schema(record).name
@@ -62,80 +91,60 @@ def _identity(record: Record) -> str | None:
     return ", ".join(words) or None
 
 
-class _Flattening:
+_Inside = dict[Path, tuple[str, FieldSpec | None]]
+"""Beginning of the paths of the values in a part, and the field that is no value but its name; by its path."""
+
+
+class _Naming:
+    """Paths of values with the names of records, where they have names, in place of indexes."""
+
     def __init__(self, side: Side, *, later_wins: bool) -> None:
         self.side = side
         self.later_wins = later_wins
-        self.counts: dict[str, int] = {}
+        self.counts: Counter[str] = Counter()
+        self.sticky: dict[Where, object] = {}
 
-    def blocks(self, blocks: list[tuple[Where, Block]]) -> Flat:
-        flat: Flat = {}
-        carried: dict[str, ComparedValue] = {}
-        for where, block in blocks:
-            keyed = next(filter(_is_keyed, record_schema(type(block)).slots), None)
-            own: Flat = {}
-            self.part(block, where, "", own, leave_out=keyed.name if keyed else "")
-            if keyed is None:  # the values of a second block get its number
-                count = self.counts[""] = self.counts.get("", 0) + 1
-                flat |= own if count == 1 else {f"#{count}/{path}": entry for path, entry in own.items()}
+    def add(self, walked: Iterable[PartValue], where: Where, flat: Flat, inside: _Inside) -> Flat:
+        """Add the values of a walk `inside` some parts; return all values."""
+        for path, slot, value in walked:
+            index = path[-1]
+            before, name_of_record = inside[path[:-2] if isinstance(index, int) else path[:-1]]
+            if slot is name_of_record:
                 continue
-            for name in block.facts.carried:
-                path = name.rstrip("_")
-                carried |= {path: own[path]} if path in own else {}
-                own = {**carried, **own}
-            self._records(getattr(block, keyed.name) or [], where, keyed, "", flat, own)
+            name, place = before + slot.json, where.inside(*path)
+            if isinstance(index, int) and not isinstance(value, Record):
+                name = f"{name}/{index + 1}"
+            if isinstance(value, Record):
+                name = self.open(value, place, f"{name}/", flat)
+                inside[path] = f"{name}/", key_slot(type(value))
+            elif isinstance(value, Part):
+                inside[path] = f"{name}/", None
+            elif isinstance(value, Table):
+                flat.update(_table(value, slot, place, name))
+            else:
+                flat[name] = _scalar(value, place)
         return flat
 
-    def part(self, part: Part, where: Where, prefix: str, flat: Flat, leave_out: str = "") -> None:
-        """Add the declared fields of a part, below a prefix."""
-        for slot in record_schema(type(part)).slots:
-            value = getattr(part, slot.name, None)
-            if slot.name != leave_out and value is not None:
-                self._value(value, slot, where.inside(slot.json), prefix + slot.json, flat)
-
-    def _value(self, value: object, slot: FieldSpec, where: Where, path: str, flat: Flat) -> None:
-        if isinstance(value, Table):
-            flat.update(_table(value, slot, where, path))
-        elif isinstance(value, Part):
-            self.part(value, where, path + "/", flat)
-        elif isinstance(value, list) and value and isinstance(value[0], Record):
-            self._records(cast("list[Record]", value), where._replace(path=where.path[:-1]), slot, path, flat, {})
-        elif isinstance(value, list):
-            for index, item in enumerate(value):
-                self._value(item, slot, where.inside(index), f"{path}/{index + 1}", flat)
-        else:
-            flat[path] = _scalar(value, where)
-
-    def _records(
-        self, records: list[Record], where: Where, slot: FieldSpec, prefix: str, flat: Flat, shared: Flat
-    ) -> None:
-        """Add the records of a list, by name if they have names, else by position."""
-        sticky: object = None
-        start = f"{prefix}/" if prefix else ""
-        for index, record in enumerate(records):
-            place = where.inside(slot.json, index)
-            key = key_slot(type(record))
-            path = start + self._title(record, key, index, flat, start)
-            values: Flat = {}
-            if record.sticky:
-                sticky = getattr(record, record.sticky, None) or sticky
-                declared = next(s for s in record_schema(type(record)).slots if s.name == record.sticky)
-                values[f"{path}/{declared.json}"] = _scalar(sticky or declared.about.default, place)
-            self.part(record, place, f"{path}/", values, leave_out=key.name if key else "")
-            flat[path] = ComparedValue(None, None, place)
-            flat |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
-
-    def _title(self, record: Record, key: FieldSpec | None, index: int, flat: Flat, start: str) -> str:
+    def open(self, record: Record, where: Where, start: str, flat: Flat) -> str:
+        """Add a record of a list, and the sticky value that holds for it; return its path."""
+        key, index = key_slot(type(record)), int(where.path[-1])
         name = _identity(record) if key is None else getattr(record, key.name, None)
         title = folded(str(name)) if name is not None else "all" if key and key.json == "set" else str(index + 1)
         self.side.names.setdefault(title, "ALL" if name is None and title == "all" else str(name or title))
+        path = start + title
         if self.later_wins:
-            if start + title in flat:
-                for path in [path for path in flat if path == start + title or path.startswith(f"{start}{title}/")]:
-                    del flat[path]
-            return title
-        count = self.counts[start + title] = self.counts.get(start + title, 0) + 1
-        return title if count == 1 else f"{title}#{count}"
+            for old in [old for old in flat if old == path or old.startswith(f"{path}/")] if path in flat else ():
+                del flat[old]
+        else:
+            self.counts[path] += 1
+            path += f"#{self.counts[path]}" if self.counts[path] > 1 else ""
+        flat[path] = ComparedValue(None, None, where)
+        if record.sticky:
+            declared = next(slot for slot in record_schema(type(record)).slots if slot.name == record.sticky)
+            of_list = where._replace(path=where.path[:-1])
+            sticky = self.sticky[of_list] = getattr(record, declared.name, None) or self.sticky.get(of_list)
+            flat[f"{path}/{declared.json}"] = _scalar(sticky or declared.about.default, where)
+        return path
 
 
 def _is_keyed(slot: FieldSpec) -> bool:
@@ -247,21 +256,15 @@ def _lines(side: Side) -> dict[_Name, _Lines]:
 def _opaque(name: _Name, before: _Lines, after: _Lines, pair: Pair) -> Iterator[Difference]:
     section, keyword = name
     title = _group(name) if keyword else f"${section}" if section else "before the first section"
-    start = _alike(before, after)
-    before, after = before[start:], after[start:]
-    end = _alike(before[::-1], after[::-1])
-    before, after = before[: len(before) - end], after[: len(after) - end]
-    edits: Sequence[tuple[str, int, int, int, int]] = [("replace", 0, len(before), 0, len(after))]
-    if len(before) + len(after) <= MOST_MATCHED:
-        old, new = ([line for line, _ in lines] for lines in (before, after))
+    old, new = ([line for line, _ in lines] for lines in (before, after))
+    start = common_start(old, new)
+    end = common_start(old[start:][::-1], new[start:][::-1])
+    before, after = before[start : len(before) - end], after[start : len(after) - end]
+    old, new = old[start : len(old) - end], new[start : len(new) - end]
+    edits: Sequence[tuple[str, int, int, int, int]] = [("replace", 0, len(old), 0, len(new))]
+    if len(old) + len(new) <= MOST_MATCHED:
         edits = SequenceMatcher(None, old, new, autojunk=False).get_opcodes()
     for tag, i, i_end, j, j_end in edits:
         if tag != "equal":
             yield from (pair.difference(title, f"{title}/lines", held, None) for held in before[i:i_end])
             yield from (pair.difference(title, f"{title}/lines", None, held) for held in after[j:j_end])
-
-
-def _alike(before: _Lines, after: _Lines) -> int:
-    """Return the number of equal lines at the beginning of two lists."""
-    same = takewhile(lambda both: both[0][0] == both[1][0], zip(before, after, strict=False))
-    return sum(1 for _ in same)

@@ -136,8 +136,7 @@ def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tu
                 continue
             rows = sorted({row for (row, _), word in table.words.items() if isinstance(word, Label)})
             for row in rows:
-                numbers = enumerate(table.values[row, : table.lengths[row]].tolist())
-                cells: list[Value] = [table.words.get((row, column)) or plain(number) for column, number in numbers]
+                cells = [plain(table.cell(row, column)) for column in range(table.lengths[row])]
                 key = tuple(str(cell).casefold() for cell in cells)
                 rows_by_key[key] = (cells, where.inside("entries", index, name, row))
     return rows_by_key
@@ -319,11 +318,10 @@ def follow_differently(
         if not names:
             continue
         elements = _called(before.scene.element_ids[here[followed == both]], descriptions)
-        lines = before.line(at), after.line(there_at)
         for name in names:
             where = f"{elements}/{group}" + (f"/{name}" if name else "")
-            values = cast("Value", old.get(name)), cast("Value", new.get(name))
-            yield Difference("changed", f"{group} of elements", where, *values, *lines)
+            held = (cast("Value", old.get(name)), at), (cast("Value", new.get(name)), there_at)
+            yield pair.difference(f"{group} of elements", where, *held)
 
 
 def _called(ids: NDArray[np.int64], descriptions: Mapping[int, str] | None) -> str:
@@ -351,10 +349,9 @@ def _sections(side: Side) -> EntryMap:
     places = [section.where for section in table.sections]
     entries = []
     for where in places:
-        block = cast("Any", side.scene.deck.sections[where.section].blocks[where.block])
-        values = record_values(side, block.sets[where.path[1]], where)
+        values = record_values(side, side.scene.deck.at(where), where)
         values.pop("option", None)  # the property line has the name of its format
-        if block.keyword == "TAPER":
+        if side.scene.deck.at(where._replace(path=())).keyword == "TAPER":
             start = np.flatnonzero(table.of_element == places.index(where))
             if start.size:
                 values["first element"] = str(side.scene.element_ids[start[0]])

@@ -67,13 +67,15 @@ class Allowance:
 
     def values(self, first: object, second: object) -> bool:
         """Return True if two values are equal; texts compare without case."""
+        if first == second:
+            return True
         if isinstance(first, int | float) and isinstance(second, int | float):
             return bool(self.arrays(np.array([first], dtype=np.float64), np.array([second], dtype=np.float64))[0])
         if isinstance(first, list | tuple) and isinstance(second, list | tuple):
             return len(first) == len(second) and all(map(self.values, first, second))
         if isinstance(first, str) and isinstance(second, str):
             return first.casefold() == second.casefold()
-        return first == second
+        return False
 
 
 def plain(value: float | str | None) -> Value:

@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple, cast
 
 from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.outside import without_text
 from mudline.basics.spelling import Effort
-from mudline.editing.variations.names import undefined_parameter, unquoted
+from mudline.editing.variations.names import keyword_of, section_of, undefined_parameter
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import DEFINING, Parameters, folded, list_items
+from mudline.language.deck.parameters import DEFINING, Definition, Parameters, folded, list_items, unquoted
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.library.preprocessor import Parameters as ParameterBlock
 from mudline.language.keywords.library.preprocessor import VariedBlock
-from mudline.language.keywords.model import Block
 from mudline.language.keywords.text import shown, suggestion
 from mudline.language.keywords.values import Equation
 from mudline.language.syntax.fields import is_one_field
 from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import LeafKind, canonical_name, parse
+from mudline.language.syntax.tree import LeafKind, parse
 from mudline.model.scene.deck_values import find_file, not_found
 
 Values = Mapping[str, str]
@@ -56,58 +53,42 @@ class ParameterTargets:
         self.parameters = Parameters(deck)
         self._targets: dict[str, ParameterTarget] = {}
         self._effort = Effort()
-        for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
-            for index, parameter in enumerate(cast("ParameterBlock", block).parameters):
-                place = where.inside("parameters", index, "value")
-                self._targets |= {folded(target.name): target for target in self._written(parameter.name, place)}
-
-    def _written(self, name: str, where: Where) -> Iterator[ParameterTarget]:
-        """Yield the parameters that a line of `*PARAMETERS` defines."""
-        origin = cast("TextOrigin", self.deck.origin)
-        span = origin.read[where.section, where.block].places.find(where.path)
-        text = origin.source.text[slice(*span)]
-        if not text.startswith("/"):
-            yield ParameterTarget(name, text, span)
-            return
-        for item in list_items(name, text)[0]:
-            start = span.start + item.start
-            yield ParameterTarget(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
 
     def target(self, name: str) -> ParameterTarget:
         """Return a parameter that is known to exist."""
-        return self._targets[folded(name)]
+        key = folded(name)
+        if key not in self._targets:
+            self._targets[key] = self._written(self.parameters.definitions[key])
+        return self._targets[key]
+
+    def _written(self, definition: Definition) -> ParameterTarget:
+        where, origin = definition.where, cast("TextOrigin", self.deck.origin)
+        span = cast("Span", origin.span(where))
+        text = origin.source.text[slice(*span)]
+        if not text.startswith("/"):
+            return ParameterTarget(definition.name, text, span)
+        prefix = self.deck.at(where._replace(path=(*where.path[:-1], "name")))
+        item = next(item for item in reversed(list_items(prefix, text)[0]) if item.name == definition.name)
+        start = span.start + item.start
+        return ParameterTarget(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
 
     def undefined(self, name: str, where: Where) -> Problem | None:
         """Return the problem of a name that is not a parameter, else None."""
-        if folded(name) in self._targets:
+        known = self.parameters.definitions
+        if folded(name) in known:
             return None
-        return undefined_parameter(name, (target.name for target in self._targets.values()), self._effort, where)
+        return undefined_parameter(name, (definition.name for definition in known.values()), self._effort, where)
 
     def in_a_name(self, name: str, values: Values) -> str | None:
         """Return a parameter's value for a file name: as written, unquoted; None for an equation without a value."""
-        key = folded(name)
-        written = values.get(self._targets[key].name, self._targets[key].text)
+        target = self.target(name)
+        written = values.get(target.name, target.text)
         if Equation.match(written) is None:
             return unquoted(written)
-        evaluated = Parameters(with_values(self.deck, values)).values.get(key)
+        evaluated = Parameters(self.deck, values).values.get(folded(name))
         if isinstance(evaluated, float) and evaluated.is_integer() and abs(evaluated) < 1e15:
             return str(int(evaluated))
         return None if evaluated is None else str(evaluated)
-
-
-def with_values(deck: Deck, values: Values) -> Deck:
-    """Return the deck with other parameter values, for its equations only: its text remains that of the old deck.
-
-    The parameters are defined again after all others, as the last definition of a parameter applies.
-    """
-    where, block = [entry for entry in deck.blocks("PARAMETERS", "PREPROCESSOR") if entry[1].parameters][-1]
-    known = cast("ParameterBlock", block).parameters
-    more = [known[-1].model_copy(update={"name": name, "value": text}) for name, text in values.items()]
-    sections = list(deck.sections)
-    blocks = list(sections[where.section].blocks)
-    blocks[where.block] = cast("Block", block).model_copy(update={"parameters": [*known, *more]})
-    sections[where.section] = replace(sections[where.section], blocks=blocks)
-    return replace(deck, sections=sections)
 
 
 def parameter_field(text: str) -> str | None:
@@ -142,7 +123,7 @@ class RefusedError(Exception):
 
 def action_of(deck: Deck, varied: VariedBlock) -> Action:
     """Return the effect of an ACTION= line on a deck that was read from text; raises RefusedError."""
-    keyword = canonical_name("*" + ",".join(unquoted(word) for word in varied.keyword))
+    keyword = keyword_of(varied)
     if DEFINING in (catalogue.sections_of(keyword) or ()):
         raise RefusedError(f"*{keyword} describes the decks: a variation cannot add or remove it")
     section = _section(deck, varied, keyword)
@@ -160,7 +141,7 @@ def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
     """Return the section of an action, which the deck has."""
     there = [section.name for section in deck.sections]
     if varied.section is not None:
-        name = canonical_name("$" + unquoted(varied.section).removeprefix("$"))
+        name = section_of(varied)
     else:
         belongs = catalogue.sections_of(keyword) or ()
         if len(belongs) != 1:

@@ -18,6 +18,7 @@ from mudline.editing.variations.cases import Action, Addition, ParameterTargets
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import DEFINING
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
@@ -103,7 +104,7 @@ def companions(deck: Deck) -> list[str]:
 
 def _written(deck: Deck) -> Iterator[str]:
     for _, section, block in deck.every_block():
-        if section == "PREPROCESSOR":
+        if section == DEFINING:
             continue
         if isinstance(block, Opaque):
             settings = settings_in(block.lines, words=False)
@@ -171,20 +172,13 @@ class ExpansionPlan:
         edits = [TextEdit(target.span, value) for target, value in targets if value != target.text]
         origin = cast("TextOrigin", self.deck.origin)
         text, sections = origin.source.unified, origin.tree.sections
-        gone = {
-            (index, number)
-            for index, section in enumerate(sections)
-            if section.name == "PREPROCESSOR"
-            for number, block in enumerate(section.blocks)
-            if (declared := catalogue.block_class(section.name, block.name)) and declared.facts.plans_decks
-        }
+        gone = {(where.section, where.block) for where, _ in self.deck.blocks_with("plans_decks", DEFINING)}
         for action in planned.actions:
             if not isinstance(action, Addition):
                 gone |= action
                 continue
             raw = sections[action.section]  # lines are added after the last line of a section that is not a comment
-            head = cast("Leaf", raw.head)
-            last = _end(text, raw, raw.blocks[-1]) if raw.blocks else max(leaf.span.end for leaf in (head, *raw.leaves))
+            last = _end(text, raw, raw.blocks[-1]) if raw.blocks else raw.above.end
             lacks_end = not text.endswith("\n", 0, last)
             edits.append(TextEdit(Span(last, last), f"\n{action.text}" if lacks_end else action.text))
         for index, number in sorted(gone):  # comments and blank lines after a block belong to the next one

@@ -3,31 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from mudline.basics.spelling import Effort, nearest
 from mudline.language.codes.lines import SYN009, SYN010
 from mudline.language.codes.references import REF001, REF013
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded
+from mudline.language.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded, unquoted
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import of_keys
+from mudline.language.keywords.model import FieldSpec
 from mudline.language.keywords.text import hint, shown, suggestion
 from mudline.language.keywords.values import Names, is_unknown, known_name
 from mudline.language.syntax.tree import canonical_name
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.preprocessor import Parameters as ParameterBlock
-
-
-def unquoted(text: str) -> str:
-    """Return a text without the double quotes around it."""
-    return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
+    from mudline.language.keywords.library.preprocessor import VariedBlock
 
 
 def name_key(name: str) -> str:
     """Return the name of a variation in the form in which names are compared."""
     return folded(" ".join(unquoted(name).split()))
+
+
+def keyword_of(varied: VariedBlock) -> str:
+    """Return the keyword of an action."""
+    return canonical_name("*" + ",".join(map(unquoted, varied.keyword or ())))
+
+
+def section_of(varied: VariedBlock) -> str:
+    """Return the section that an action names, or ""."""
+    return canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
 
 
 def placeholders(template: str) -> list[str]:
@@ -55,14 +63,17 @@ def undefined_variation(name: str, known: Iterable[str], effort: Effort, where: 
 
 # ------------------------------------------------------------------------------------------------------ in any deck
 
-_Named = tuple[str, Where]
-"""A name, and its place."""
+CALLS = of_keys("VARIATIONS")
+"""Predicate of the field in which a combination names variations."""
 
 
 def undefined_parameters(deck: Deck) -> Iterator[Problem]:
     """Yield parameters in PARA=, or as `%name%` in a folder or file name, that `*PARAMETERS` does not define."""
     varied = (name for name in deck.names() if name.kind is Names.PARAMETER and name.role == "names")
-    named = [*((unquoted(name.name), name.where) for name in varied), *_in_names(deck)]
+    named = [(unquoted(name.name), name.where) for name in varied]
+    for where, block in deck.blocks("COMBINATIONS", DEFINING):
+        for path, _, template in block.walk(of_keys("DIRECTORY", "SUBDIRECTORY", "FILENAME")):
+            named += [(name, where.inside(*path)) for name in placeholders(unquoted(template))]
     known = _parameters(deck) if named else None
     effort = Effort()
     for name, where in named:
@@ -73,11 +84,9 @@ def undefined_parameters(deck: Deck) -> Iterator[Problem]:
 def undefined_variations(deck: Deck) -> Iterator[Problem]:
     """Yield variations in VARIATIONS= that no `*VARIATION` defines; an unread `*EXCEL VARIATIONS` may define any."""
     called = [
-        (name, where.inside("combinations", i, "variations", j, "names", number))
+        (name, where.inside(*path))
         for where, block in deck.blocks("COMBINATIONS", DEFINING)
-        for i, combination in enumerate(block.combinations)
-        for j, line in enumerate(combination.variations)
-        for number, name in enumerate(line.names or ())
+        for path, _, name in block.walk(CALLS)
     ]
     present = deck.keywords(DEFINING)
     if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
@@ -98,32 +107,21 @@ def misspelt_actions(deck: Deck) -> Iterator[Problem]:
     """Yield unknown keywords and sections in KEYWORD= and SECTION= of an action that resemble known ones."""
     of_keywords, of_sections = Effort(), Effort()
     for where, block in deck.blocks("VARIATION", DEFINING):
-        for i, variation in enumerate(block.variations):
-            for j, varied in enumerate(variation.blocks):
-                words = cast("list[str] | None", varied.keyword) or ()
-                keyword = canonical_name("*" + ",".join(map(unquoted, words)))
-                section = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
-                place = where.inside("variations", i, "blocks", j)
-                given = [
-                    (SYN009, "keyword *", keyword, catalogue.keywords(), of_keywords, place.inside("keyword", 0)),
-                    (SYN010, "section $", section, catalogue.SECTIONS, of_sections, place.inside("section")),
-                ]
-                for code, what, name, known, effort, at in given:
-                    if name and name not in known and (near := nearest(name, known, effort)):
-                        message = f"{what}{name} is not known{hint(near)}: correct it"
-                        yield Problem(code, message, None, Severity.WARNING, at)
+        for path, _, varied in block.walk(_is_action):
+            keyword, section = keyword_of(varied), section_of(varied)
+            place = where.inside(*path)
+            given = [
+                (SYN009, "keyword *", keyword, catalogue.keywords(), of_keywords, place.inside("keyword", 0)),
+                (SYN010, "section $", section, catalogue.SECTIONS, of_sections, place.inside("section")),
+            ]
+            for code, what, name, known, effort, at in given:
+                if name and name not in known and (near := nearest(name, known, effort)):
+                    message = f"{what}{name} is not known{hint(near)}: correct it"
+                    yield Problem(code, message, None, Severity.WARNING, at)
 
 
-def _in_names(deck: Deck) -> Iterator[_Named]:
-    """Yield the parameters in names of folders and files."""
-    for where, block in deck.blocks("COMBINATIONS", DEFINING):
-        templates = [(block.directory, where.inside("directory"))]
-        for i, combination in enumerate(block.combinations):
-            place = where.inside("combinations", i)
-            templates.append((combination.subdirectory, place.inside("subdirectory")))
-            templates.append((combination.filename, place.inside("filename")))
-        for text, place in templates:
-            yield from ((name, place) for name in placeholders(unquoted(text or "")))
+def _is_action(slot: FieldSpec) -> bool:
+    return "varied_block" in slot.record
 
 
 def _parameters(deck: Deck) -> dict[str, str] | None:

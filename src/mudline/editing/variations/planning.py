@@ -13,20 +13,14 @@ from typing import NamedTuple
 from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
 from mudline.editing.variations.cases import Action, ParameterTarget, ParameterTargets, RefusedError, Values, action_of
-from mudline.editing.variations.files import (
-    MANIFEST,
-    ExpansionPlan,
-    PlannedDeck,
-    Taken,
-    path_fault,
-)
-from mudline.editing.variations.names import filled, name_key, placeholders, undefined_variation, unquoted
+from mudline.editing.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, Taken, path_fault
+from mudline.editing.variations.names import CALLS, filled, name_key, placeholders, undefined_variation
 from mudline.language.codes import EXP001
 from mudline.language.codes.references import REF013
 from mudline.language.deck.forms import SUFFIXES
 from mudline.language.deck.keyword_text import as_text
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import NoValueError
+from mudline.language.deck.parameters import DEFINING, NoValueError, unquoted
 from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import DeckError, Problem, Severity, Where
 from mudline.language.keywords.library.preprocessor import Combination, NamedVariation, ValueRange, VariedParameter
@@ -118,7 +112,7 @@ class _Planner:
             raise DeckError(self.deck.diagnose(self.problems))
 
     def _excel(self) -> str:
-        there = "EXCEL VARIATIONS" in self.deck.keywords("PREPROCESSOR")
+        there = "EXCEL VARIATIONS" in self.deck.keywords(DEFINING)
         return " (*EXCEL VARIATIONS is not expanded)" if there else ""
 
     # --------------------------------------------------------------------------------------------------- variations
@@ -126,7 +120,7 @@ class _Planner:
     def _variations(self) -> dict[str, Cases]:
         """Return every variation by its name in the form in which names are compared."""
         by_name: dict[str, Cases] = {}
-        for where, block in self.text.blocks("VARIATION", "PREPROCESSOR"):
+        for where, block in self.text.blocks("VARIATION", DEFINING):
             for index, variation in enumerate(block.variations):
                 place = where.inside("variations", index)
                 cases = self._cases(variation, place)
@@ -209,7 +203,7 @@ class _Planner:
     # ------------------------------------------------------------------------------------------------- combinations
 
     def _groups(self, variations: dict[str, Cases]) -> Iterator[_CaseGroup]:
-        for where, block in self.text.blocks("COMBINATIONS", "PREPROCESSOR"):
+        for where, block in self.text.blocks("COMBINATIONS", DEFINING):
             for index, combination in enumerate(block.combinations):
                 place = where.inside("combinations", index)
                 given = (block.directory, combination.subdirectory, combination.filename)
@@ -219,17 +213,16 @@ class _Planner:
     def _called(self, combination: Combination, where: Where, variations: dict[str, Cases]) -> list[Cases]:
         """Return the variations that a combination calls, each once; if it names none, all of the deck."""
         called: dict[str, Cases] = {}
-        for index, line in enumerate(combination.variations):
-            for number, name in enumerate(line.names):
-                key = name_key(name)
-                if key in variations:
-                    called[key] = variations[key]
-                elif key == "all":
-                    called |= variations
-                else:
-                    known = (cases.name for cases in variations.values())
-                    place = where.inside("variations", index, "names", number)
-                    self.problems.append(replace(undefined_variation(name, known, self.effort, place), code=EXP001))
+        for path, _, name in combination.walk(CALLS):
+            key = name_key(name)
+            if key in variations:
+                called[key] = variations[key]
+            elif key == "all":
+                called |= variations
+            else:
+                known = (cases.name for cases in variations.values())
+                problem = undefined_variation(name, known, self.effort, where.inside(*path))
+                self.problems.append(replace(problem, code=EXP001))
         return list((called if combination.variations else variations).values())
 
     def _is_valid(self, group: _CaseGroup) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple, NewType, cast
 
@@ -34,6 +34,11 @@ _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*
 def folded(name: str) -> str:
     """Return a name in the form in which names are compared: without case; blanks inside count."""
     return name.strip(" \t").casefold()
+
+
+def unquoted(text: str) -> str:
+    """Return a text without the double quotes around it."""
+    return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
 
 
 def bare(name: str) -> str:
@@ -98,9 +103,13 @@ class NoValueError(Exception):
 
 @dataclass(eq=False)
 class Parameters:
-    """Parameters of a deck, evaluated on demand; names are compared without case, the last definition holds."""
+    """Parameters of a deck, evaluated on demand; names are compared without case, the last definition holds.
+
+    `given` are values as written, by name, in place of those of the deck.
+    """
 
     deck: Deck
+    given: Mapping[str, str] = field(default_factory=dict)
     definitions: dict[str, Definition] = field(default_factory=dict)
     values: dict[str, Value] = field(default_factory=dict)
     failed: set[str] = field(default_factory=set)
@@ -111,6 +120,8 @@ class Parameters:
         for where, block in self.deck.blocks("PARAMETERS", "PREPROCESSOR"):
             for index, parameter in enumerate(block.parameters):
                 self._define(parameter, Where(where.section, where.block, ("parameters", index, "value")))
+        for name, text in self.given.items():
+            self._add(name, text, Where())
         for name in self.definitions:
             if name not in self.values and name not in self.failed:
                 self._resolve(name)

@@ -2,11 +2,11 @@
 
 from typing import Annotated, Literal
 
-from mudline.language.keywords.fields import Expected, about
+from mudline.language.keywords.fields import Expected, about, setting
 from mudline.language.keywords.model import Part, Row, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.usual import DIRECTION
-from mudline.language.keywords.values import Ident, Names, Real, Whole
+from mudline.language.keywords.values import Ident, Name, Names, Real, Whole
 
 NO_SET = (
     "lines before any SET= are read as those of SET=ALL, since the manual's default set of a force-embedment curve is "
@@ -17,6 +17,7 @@ OLDER = "from the public reader of .das decks, in which alone it stands"
 
 Node = Annotated[Ident, about("node number, or its label", names=Names.NODE)]
 Element = Annotated[Ident, about("element number, or its label", names=Names.ELEMENT)]
+SetName = Annotated[Name, setting("SET", "element set", names=Names.SET)]
 Freedom = Annotated[
     Whole, about("degree of freedom; 1 vertical, 2 and 3 horizontal, 4 to 6 rotations", at_least=1, at_most=6)
 ]

@@ -185,6 +185,12 @@ def naming(what: Names | None, role: Role = "names") -> FieldFilter:
 
 
 @cache
+def of_keys(*keys: str) -> FieldFilter:
+    """Return the predicate of settings with one of these keys."""
+    return lambda slot: slot.key in keys
+
+
+@cache
 def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
     """Return the kinds of objects that the fields of a part and its inner parts refer to or define."""
     return frozenset(kind for slot in fields_of(part) if (kind := getattr(slot.about, role)) is not None)

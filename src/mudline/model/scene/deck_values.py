@@ -13,9 +13,10 @@ from pathlib import Path, PurePath
 from mudline.basics.files import look
 from mudline.basics.outside import is_made_by_system, is_refused, project_of
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.parameters import Parameters, bare, folded
+from mudline.language.deck.parameters import Parameters, bare, folded, unquoted
 from mudline.language.diagnostics import Severity, Span, Where
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.contents import of_keys
 from mudline.language.keywords.model import Block, Row, record_schema
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import LINE_SETS, Names
@@ -43,10 +44,7 @@ def number(part: object, name: str, default: float = math.nan) -> float:
 
 def file_name(written: str) -> str:
     """Return a file's name as a deck writes it, without quotes and with `/` between folders."""
-    name = written.strip()
-    if len(name) > 1 and name[0] == name[-1] == '"':
-        name = name[1:-1]
-    return name.replace("\\", "/")
+    return unquoted(written.strip()).replace("\\", "/")
 
 
 def find_file(folder: Path | None, written: str) -> Path | None:
@@ -166,7 +164,7 @@ def sets_in(block: Block | Opaque) -> Iterator[str]:
             if kind := keys.get(group.key):
                 yield from (field.text for field in group.fields[: None if kind is Names.SETS else 1])
     elif block.facts.makes:
-        for _, _, value in block.walk(lambda slot: slot.key in LINE_SETS):
+        for _, _, value in block.walk(of_keys(*LINE_SETS)):
             name = getattr(value, record_schema(type(value)).columns[0].name) if isinstance(value, Row) else value
             if isinstance(name, str) and name:
                 yield name

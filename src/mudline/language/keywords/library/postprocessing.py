@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import Element
+from mudline.language.keywords.common import Element, SetName
 from mudline.language.keywords.contents import OpenBlock
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, ListRow, Record, Row
@@ -98,7 +98,7 @@ class StressSet(Record):
     """Properties of a set."""
 
     rule = "stress_set"
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: SetName = Field(alias="set")
     section: Annotated[StressSection, about("its properties")]
 
 
@@ -206,7 +206,7 @@ class CheckedSet(Record):
     """Places of a set."""
 
     rule = "checked_set"
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: SetName = Field(alias="set")
     places: Records[CheckedPlace] = Records()
 
 

@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, ValidationInfo, field_validator
 
 from mudline.language.keywords.assigning import Records
+from mudline.language.keywords.common import SetName
 from mudline.language.keywords.contents import OpenBlock
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row, rows
@@ -17,7 +18,7 @@ from mudline.language.keywords.usual import (
     POSITION,
     Usual,
 )
-from mudline.language.keywords.values import Facts, Name, Names, OpaqueKeyword, Real
+from mudline.language.keywords.values import Facts, OpaqueKeyword, Real
 
 _NEEDS = "; a direction whose coefficient is 0 stays free"
 
@@ -135,7 +136,7 @@ class FrictionSet(Record):
     """Friction of one SET=, taken as a whole."""
 
     rule = "friction_set"
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: SetName = Field(alias="set")
     coefficients: Annotated[Coefficients, setting("COEFFICIENTS", "Coulomb coefficients")]
     stiffness: Annotated[TangentialStiffness, setting("STIFFNESS", "tangential springs below the limit")]
     directions: Annotated[
@@ -219,7 +220,7 @@ class TrenchSet(Record):
     """Trench of one SET=, taken as a whole."""
 
     rule = "trench_set"
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: SetName = Field(alias="set")
     geometry: Annotated[TrenchGeometry, setting("GEOMETRY", "depth and widths of the trench")]
     model: Annotated[
         Literal["PEAK", "WALL"] | None,

@@ -5,17 +5,18 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mudline.language.keywords.assigning import Records
+from mudline.language.keywords.common import SetName
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.model import Block, Record, Row
 from mudline.language.keywords.usual import ANY, LEAST_BED, MODEL, Usual
-from mudline.language.keywords.values import Facts, Name, Names, Real
+from mudline.language.keywords.values import Facts, Real
 
 
 class ContactSet(Record):
     """Contact of one SET=, taken as a whole."""
 
     rule = "contact_set"
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: SetName = Field(alias="set")
     nodal_stiffness: Annotated[
         Real | None,
         setting(
@@ -104,7 +105,7 @@ class SoilSet(Record):
     """Soil of one SET=, taken as a whole."""
 
     rule = "soil_set"
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: SetName = Field(alias="set")
     strength: Annotated[Strength, setting("STRENGTH", "undrained shear strength")]
     bearing: Annotated[Bearing | None, setting("BEARING", "bearing factor", default="6, 0.25")] = None
     stiffness: Annotated[
@@ -141,7 +142,7 @@ class UnloadingSet(Record):
     """Unloading of one SET=."""
 
     rule = "unloading_set"
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: SetName = Field(alias="set")
     stiffness: Annotated[
         Real,
         setting("STIFFNESS", "stiffness of unloading and reloading per unit length", unit="F/L2", usual=LEAST_BED),
@@ -206,7 +207,7 @@ class SuctionSet(Record):
     """Suction of one SET=, taken as a whole."""
 
     rule = "suction_set"
-    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    set_name: SetName = Field(alias="set")
     cohesion: Annotated[
         Real | None,
         setting(

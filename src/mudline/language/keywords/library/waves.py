@@ -101,46 +101,45 @@ class RegularWaves(Block):
 
 
 _AIRY = "of the Airy wave that moves the vessel"
+_AiryAmplitude = Annotated[Real | None, about(f"amplitude {_AIRY}", unit="L", default="0", at_least=0, usual=AMPLITUDE)]
+_AiryPeriod = Annotated[
+    Real | None, about(f"period {_AIRY}; it needs an amplitude above 0", unit="T", at_least=0, usual=WAVE_PERIOD)
+]
 
 
-class StokesWave(Block):
+class _SteepWave(Block):
+    """Wave with a shape of its own, for which an Airy wave stands in the motions of vessels."""
+
+    sections = ("LOAD CASE",)
+    subject = "waves"
+    option: Annotated[Literal["SUPERPOSE"] | None, setting("OPTION", "how the response of a vessel is found")] = None
+    height: Annotated[Real, about("wave height", unit="L", at_least=0, usual=HEIGHT)]
+    period: Annotated[Real, about("wave period", unit="T", above=0, usual=WAVE_PERIOD)]
+    direction: Direction = None
+
+
+class StokesWave(_SteepWave):
     """Stokes wave."""
 
     rule = "wave_stokes"
-    sections = ("LOAD CASE",)
-    subject = "waves"
     page = "kwd_loadcase_wavestokes"
     summary = "A Stokes V wave, and the Airy wave that replaces it for the motions of vessels."
     example = "*WAVE-STOKES\n OPTION=SUPERPOSE\n 6.0, 12.0, 180.0, 3.0, 12.0\n"
 
     keyword: Literal["WAVE-STOKES"] = "WAVE-STOKES"
-    option: Annotated[Literal["SUPERPOSE"] | None, setting("OPTION", "how the response of a vessel is found")] = None
-    height: Annotated[Real, about("wave height", unit="L", at_least=0, usual=HEIGHT)]
-    period: Annotated[Real, about("wave period", unit="T", above=0, usual=WAVE_PERIOD)]
-    direction: Direction = None
-    airy_amplitude: Annotated[
-        Real | None, about(f"amplitude {_AIRY}", unit="L", default="0", at_least=0, usual=AMPLITUDE)
-    ] = None
-    airy_period: Annotated[
-        Real | None, about(f"period {_AIRY}; it needs an amplitude above 0", unit="T", at_least=0, usual=WAVE_PERIOD)
-    ] = None
+    airy_amplitude: _AiryAmplitude = None
+    airy_period: _AiryPeriod = None
 
 
-class DeanWave(Block):
+class DeanWave(_SteepWave):
     """Stream function wave."""
 
     rule = "wave_deans"
-    sections = ("LOAD CASE",)
-    subject = "waves"
     page = "kwd_loadcase_wavedeans"
     summary = "A wave of Dean's stream function, and the Airy wave that replaces it for the motions of vessels."
     example = "*WAVE-DEANS\n 6.0, 12.0, 180.0, 0.5, 15, 100, 5, 3.0, 12.0\n"
 
     keyword: Literal["WAVE-DEANS"] = "WAVE-DEANS"
-    option: Annotated[Literal["SUPERPOSE"] | None, setting("OPTION", "how the response of a vessel is found")] = None
-    height: Annotated[Real, about("wave height", unit="L", at_least=0, usual=HEIGHT)]
-    period: Annotated[Real, about("wave period", unit="T", above=0, usual=WAVE_PERIOD)]
-    direction: Direction = None
     current: Annotated[
         Real | None, about("velocity of the current below the wave", unit="L/T", default="0", usual=CURRENT)
     ] = None
@@ -151,12 +150,8 @@ class DeanWave(Block):
     ramp: Annotated[
         Whole | None, about("steps in which the wave grows to its height", default="5", at_least=1, usual=COUNT)
     ] = None
-    airy_amplitude: Annotated[
-        Real | None, about(f"amplitude {_AIRY}", unit="L", default="0", at_least=0, usual=AMPLITUDE)
-    ] = None
-    airy_period: Annotated[
-        Real | None, about(f"period {_AIRY}; it needs an amplitude above 0", unit="T", at_least=0, usual=WAVE_PERIOD)
-    ] = None
+    airy_amplitude: _AiryAmplitude = None
+    airy_period: _AiryPeriod = None
 
 
 class WaveTimeHistory(Block):
