@@ -16,10 +16,9 @@ from mudline.language.rules import rule
 from mudline.model.contact.seabed import heading
 from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.given_positions import FLAT
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, first_of
-from mudline.model.scene.seabed import SeabedKind, SeabedShape, made_seabed
+from mudline.model.scene.seabed import FLAT, SeabedKind, SeabedShape, made_seabed
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
