@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mudline.checks.context import LintContext, records_of
+from mudline.checks.context import LintContext
 from mudline.checks.rules.model_parts import lacks, without_sections
 from mudline.checks.rules.references import in_water
 from mudline.checks.rules.seabed_support import in_another_pipe
@@ -69,7 +69,7 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
         places = [
             (keyword, where, scene.set_table.find(entry.set_name))
             for keyword in giving
-            for where, entry in records_of(context.blocks(keyword))
+            for where, entry in context.records(keyword)
             if is_name(entry.set_name)
         ]
         known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]
@@ -120,7 +120,7 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     if not any(in_water(context.deck)) or not lacks(context, "elements", "hydrodynamics"):
         return
     covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    for _, entry in records_of(context.blocks("HYDRODYNAMIC SETS")):
+    for _, entry in context.records("HYDRODYNAMIC SETS"):
         set_ = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
         if set_ is None:
             return

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.checks.context import LintContext, records_of
+from mudline.checks.context import LintContext
 from mudline.checks.rules.seabed_position import depths, mean_depths
 from mudline.language.codes.contact import GEO005, GEO017, SBD006
 from mudline.language.codes.lines import SYN014
@@ -282,7 +282,7 @@ def _inner_pipes(scene: Scene, free: Mask) -> Mask:
 def in_another_pipe(scene: Scene) -> Mask:
     """Return a mask (m,) of the elements of the inner pipes that `*PIP SECTION` names."""
     inside = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    for _, pipe in records_of(scene.deck.blocks("PIP SECTION"), "pipes"):
+    for _, pipe in scene.context.records("PIP SECTION", "pipes"):
         if set_ := scene.set_table.find(pipe.inner or ""):
             inside[set_.elements] = True
     return inside
