@@ -109,15 +109,13 @@ class CallerSettings(NamedTuple):
     no_outside: bool = False
 
 
-def read_configuration(
-    path: Path, *, demanded: bool = True, code_fault: CodeFault | None = None
-) -> Configuration | None:
-    """Return the configuration in a file; None for a pyproject.toml without `[tool.mudline]` that is not `demanded`.
+def read_configuration(path: Path, code_fault: CodeFault | None = None) -> Configuration | None:
+    """Return the configuration in a file; None for a pyproject.toml without `[tool.mudline]`.
 
     Files that it extends are read too. Words for rules are checked by `code_fault`
     (`mudline.checks.registry.code_fault`), and not checked without it. Raises OSError and ConfigurationError.
     """
-    outermost = _read_one(path, demanded=demanded, code_fault=code_fault)
+    outermost = _read_one(path, code_fault)
     if outermost is None or EXTEND not in outermost.values:
         return outermost
     chain, at, whole = [path], outermost, [outermost]
@@ -129,17 +127,16 @@ def read_configuration(
             names = " -> ".join(file.as_posix() for file in (*chain[known.index(real) :], base))
             raise ConfigurationError(f"{place} leads back to itself: {names}")
         try:
-            read = _read_one(base, demanded=True, code_fault=code_fault)
+            at = _read_one(base, code_fault) or Configuration(base)
         except OSError as error:
             why = (error.strerror or str(error)).lower()
             raise ConfigurationError(f"{place}: {base.as_posix()} cannot be read: {why}") from error
-        at = read or Configuration(base)
         chain.append(base)
         whole.append(at)
     return reduce(lambda above, own: own.over(above), reversed(whole))
 
 
-def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Configuration | None:
+def _read_one(path: Path, code_fault: CodeFault | None) -> Configuration | None:
     """Return the configuration in the file alone, without the files that it extends."""
     reading(path)
     content = path.read_bytes()
@@ -156,9 +153,8 @@ def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Co
     if path.name == "pyproject.toml":
         tool = document.get("tool")
         values = tool.get("mudline") if isinstance(tool, dict) else None
-        if values is None and not demanded:
+        if values is None:
             return None
-        values = {} if values is None else values
     return _ConfigurationFile(path, content, text, code_fault).checked(values)
 
 
@@ -289,15 +285,14 @@ class Configured:
             if place not in self._in_folder:
                 files = (place / name for name in ("mudline.toml", "pyproject.toml"))
                 there = filter(os.path.isfile, files)  # Path raises for a folder that may not be searched
-                read = (self._read(file, demanded=False) for file in there)
-                self._in_folder[place] = next((each for each in read if each), None)
+                self._in_folder[place] = next(filter(None, map(self._read, there)), None)
             if here := self._in_folder[place]:
                 return here
         return Configuration()
 
-    def _read(self, path: Path, *, demanded: bool = True) -> Configuration | None:
+    def _read(self, path: Path) -> Configuration | None:
         try:
-            return read_configuration(path, demanded=demanded, code_fault=self.code_fault)
+            return read_configuration(path, self.code_fault)
         except OSError as error:
             what = f"{error.filename}: the configuration cannot be read"
             raise ConfigurationError(f"{what}: {(error.strerror or str(error)).lower()}") from error

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from mudline.checks.context import LintContext
-from mudline.checks.engine import of_base
-from mudline.checks.verdict import all_findings, errors_of
+from mudline.checks.engine import all_findings, errors_of, of_base
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Diagnostic
 from mudline.model.results.summary import summarise

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import LintContext
-from mudline.checks.engine import joined_problems, unsuppressed
+from mudline.checks.engine import all_findings, errors_of, unsuppressed
 from mudline.checks.registry import rules, select
 from mudline.language.codes.contact import SBD006
 from mudline.language.deck.loading import coverage_of, load_bytes
@@ -58,10 +58,8 @@ class Verdict:
 
     def row(self) -> dict[str, Any]:
         """Return the verdict as an object of the JSON output."""
-        words = self.keywords
         head = {"file": self.file, "ok": self.ok, "verdict": str(self), "errors": self.errors}
-        counts = {"warnings": self.warnings, "unread": words.total - words.read, "sections": self.sections}
-        return head | counts | {"keywords": asdict(words), "curves": self.curves, "elements": self.elements}
+        return head | {"warnings": self.warnings, "unread": self.keywords.total - self.keywords.read} | asdict(self)
 
 
 class Judgement(NamedTuple):
@@ -75,16 +73,6 @@ class Judgement(NamedTuple):
 def refused(file: str, error: DeckError) -> Verdict:
     """Return the verdict on a file that holds no deck."""
     return Verdict(file, len(error.diagnostics))
-
-
-def all_findings(context: LintContext) -> list[Problem]:
-    """Return the findings of all rules in a deck, including those that its comments suppress."""
-    return joined_problems(context, rules(), suppress=False)
-
-
-def errors_of(problems: list[Problem]) -> list[Problem]:
-    """Return the findings that make a deck illegal, the same in every command."""
-    return [problem for problem in problems if problem.weight is Severity.ERROR]
 
 
 def errors_beside(deck: Deck) -> list[Diagnostic]:

@@ -154,7 +154,7 @@ def _line(scene: Scene, below: Floats) -> _Line | None:
         used[ends] = True
     if not used.any():
         return None
-    extent = LineExtent(*(_extent(axis, used) for axis in scene.coordinates.T), scene.surroundings.depth)
+    extent = LineExtent(*(_extent(axis, used) for axis in scene.coordinates.T), depth=scene.surroundings.depth)
     highest, deepest = _extent(below, used)
     diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
     with np.errstate(invalid="ignore", over="ignore"):

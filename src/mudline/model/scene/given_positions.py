@@ -56,7 +56,7 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     if not used.size or not np.isfinite(used).all():
         return ""
     depth = scene.surroundings.depth
-    extent = LineExtent(*zip(used.min(axis=0).tolist(), used.max(axis=0).tolist(), strict=True), depth)
+    extent = LineExtent(*zip(used.min(axis=0).tolist(), used.max(axis=0).tolist(), strict=True), depth=depth)
     if sign := extent.height_along_z():
         return sign
     (low_x, high_x), (low_z, high_z) = extent.x, extent.z

@@ -259,7 +259,7 @@ def _scene(deck: Deck | None) -> tuple[Scene | None, str]:
     try:
         return resolve(deck).require(), ""
     except DeckError as error:
-        return None, _reason(DeckError(named_causes(deck, error.diagnostics, rules())))
+        return None, _reason(DeckError(named_causes(deck, error.diagnostics)))
 
 
 def _reason(error: DeckError) -> str:
