@@ -162,8 +162,7 @@ def recovered(context: LintContext, codes: Collection[str], *, suppress: bool) -
 
 def _cause(correction: Correction) -> Problem:
     cause = correction.cause
-    edits = tuple((edit.span, edit.text) for edit in correction.edits)
-    repair = Repair("unsafe", correction.does, edits) if correction.does else cause.repair
+    repair = Repair("unsafe", correction.does, correction.edits) if correction.does else cause.repair
     return replace(cause, message=correction.message or cause.message, repair=repair)
 
 

@@ -119,8 +119,8 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
         if source[slice(*between)].strip(" \t") not in ("", ","):
             return None
         edits.append(TextEdit(between, f"\n{indentation or ' '}"))
-    ended = with_line_ends(text.source, edits)
-    return Repair("safe", f"put at most {LONGEST_LIST} elements on a line", tuple((it.span, it.text) for it in ended))
+    ended = tuple(with_line_ends(text.source, edits))
+    return Repair("safe", f"put at most {LONGEST_LIST} elements on a line", ended)
 
 
 @rule(REF016)
