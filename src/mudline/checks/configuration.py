@@ -23,7 +23,16 @@ TABLES = ("per-file-ignores", "severity")
 EXTEND = "extend"
 NO_OUTSIDE = "no-outside"
 ENCODING = "encoding"
-KEYS = (EXTEND, *LISTS, *WORDS, NO_OUTSIDE, ENCODING, *TABLES)
+DEFAULTS: Values = {
+    EXTEND: "",
+    **{key: [] for key in LISTS},
+    "fail-on": "warning",
+    "dialect": "mudline",
+    NO_OUTSIDE: False,
+    ENCODING: "",
+    **{key: {} for key in TABLES},
+}
+"""Value of each key that is not set."""
 _ADDED = "extend-select"
 OF_CODES = ("select", "ignore", "extend-select", "fixable", "unfixable")
 SEVERITIES = ("error", "warning", "info", "off")
@@ -75,23 +84,14 @@ class Configuration:
         content = b"%d %b%b" % (len(self.content), self.content, base.content)
         return Configuration(self.path, values, base.origins | self.origins, content)
 
-    def words(self, key: str) -> list[str]:
-        """Return a list, empty if it is not set."""
-        return list(self.values.get(key, ()))
-
-    def table(self, key: str) -> dict[str, Any]:
-        """Return a table, empty if it is not set."""
-        return dict(self.values.get(key, {}))
+    def value(self, key: str) -> Any:  # noqa: ANN401 - of the kind of its key
+        """Return the value of a key, or its default."""
+        return self.values.get(key, DEFAULTS[key])
 
     def lists(self, key: str, path: str) -> bool:
         """Return True if a pattern of a list, `include` or `exclude`, matches the path of a file."""
-        patterns = self.words(key)
+        patterns = self.value(key)
         return bool(patterns) and matches(self.relative(path), patterns)
-
-    @property
-    def fail_on(self) -> str:
-        """Least severity of findings for which a run fails."""
-        return str(self.values.get("fail-on", "warning"))
 
     def relative(self, path: str) -> str:
         """Return a path as seen from the folder of the configuration, with `/`."""
@@ -180,8 +180,8 @@ class _ConfigurationFile:
         return Configuration(self.path, values, origins, self.content)
 
     def check(self, key: str, value: object) -> None:
-        if key not in KEYS:
-            raise self.error(key, f"unknown key {key!r}{_hint(key, KEYS)}")
+        if key not in DEFAULTS:
+            raise self.error(key, f"unknown key {key!r}{_hint(key, DEFAULTS)}")
         if key in (EXTEND, NO_OUTSIDE, ENCODING):
             self.single(key, value)
         elif key in WORDS:
@@ -311,7 +311,7 @@ class Configured:
 
     def encoding(self, path: str) -> str:
         """Return the encoding that the file's configuration gives, "" if it gives none."""
-        return str(self.of(path).values.get(ENCODING, ""))
+        return str(self.of(path).value(ENCODING))
 
     def excludes(self, path: str) -> bool:
         """Return True if `exclude` of the file's configuration leaves the file out."""
@@ -325,4 +325,4 @@ def refuses_outside(folder: Path) -> bool:
         configuration = Configured().of(str(folder / "-"))
     except ConfigurationError:
         return True
-    return bool(configuration.values.get(NO_OUTSIDE))
+    return bool(configuration.value(NO_OUTSIDE))

@@ -82,7 +82,8 @@ class LintReport:
 
     def add(self, file: Input, data: bytes, findings: list[Diagnostic], fixed: int) -> None:
         """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
-        name, limit = file.name, Severity(self.wanted.fail_on or self.configured.of(file.path or file.name).fail_on)
+        name, configuration = file.name, self.configured.of(file.path or file.name)
+        limit = Severity(self.wanted.fail_on or configuration.value("fail-on"))
         self.names.append(name)
         self.found += findings
         self.fixed += fixed
