@@ -66,13 +66,12 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     reported: dict[frozenset[str], tuple[str, Where, list[str]]] = {}
     for gives in dict.fromkeys(block.facts.gives for _, block in blocks):
         giving = dict.fromkeys(block.keyword for _, block in blocks if block.facts.gives == gives)
-        places = [
-            (keyword, where, scene.set_table.find(entry.set_name))
+        known = [
+            (keyword, where, set_)
             for keyword in giving
             for where, entry in context.records(keyword)
-            if is_name(entry.set_name)
+            if is_name(entry.set_name) and (set_ := scene.set_table.find(entry.set_name)) and set_.elements.size
         ]
-        known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for *_, set_ in known], count):
             (before, _, first), (keyword, where, second) = known[earlier], known[later]
             refined = before == keyword and (within(first, second, count) or within(second, first, count))
