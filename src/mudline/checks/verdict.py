@@ -1,20 +1,23 @@
-"""Verdict on a deck: its errors and warnings, and how much of it was read."""
+"""Verdict on a deck: its errors and warnings, and how much of it was read; its contents, as far as they can be read."""
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import LintContext
-from mudline.checks.engine import all_findings, errors_of, unsuppressed
+from mudline.checks.engine import all_findings, errors_of, of_base, unsuppressed
 from mudline.checks.registry import rules, select
 from mudline.language.codes.contact import SBD006
 from mudline.language.deck.loading import coverage_of, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity
 from mudline.model.results.warnings import seabed_warnings
+
+if TYPE_CHECKING:
+    from mudline.model.scene.sheet import Sheet
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,3 +113,32 @@ def _warnings(context: LintContext, problems: list[Problem], *, ok: bool) -> lis
     reported = {each.code.code for each in problems if each.weight is Severity.WARNING}
     more = seabed_warnings(context.scene) if ok and SBD006.code not in reported else []
     return [*context.deck.diagnose(own), *(each.diagnostic for each in more if each.diagnostic.code not in reported)]
+
+
+# ------------------------------------------------------------------------------------------------------------- contents
+
+
+class Overview(NamedTuple):
+    """Overview of a deck.
+
+    Attributes:
+        summary: sections, keywords, counts, sets, curves, diameters and laws, as `mudline show --output-format json`.
+        sheet: `columns` by key, with heading and unit, and in `rows` the values of each run of elements with the same
+            properties, by the same keys.
+        errors: reasons why the deck is not legal; summary and sheet may lack parts because of them.
+    """
+
+    summary: dict[str, Any]
+    sheet: Sheet
+    errors: list[Diagnostic]
+
+
+def overview(deck: Deck) -> Overview:
+    """Return the overview of a deck; never raises for its content."""
+    from mudline.model.results.summary import summarise  # noqa: PLC0415 - a verdict does without it
+    from mudline.model.scene.sheet import sheet_of  # noqa: PLC0415 - as above
+
+    context = LintContext(deck)
+    scene = context.scene
+    errors = [*errors_of(all_findings(context)), *(problem for problem in scene.errors() if of_base(deck, problem))]
+    return Overview(summarise(scene), sheet_of(scene), scene.deck.diagnose(errors))
