@@ -252,7 +252,7 @@ def of_base(deck: Deck, problem: Problem) -> bool:
 def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
     """Return the problems that comments of the deck do not suppress, and the comments that suppress nothing."""
     found = context.once(suppressions)
-    return problems if found is None else found.split(problems, chosen)[0]
+    return problems if found is None else found.reported([*problems, *found.unused(problems, chosen)])
 
 
 def lint_bytes(

@@ -293,10 +293,10 @@ def _hidden(context: LintContext, settings: LintSettings) -> list[dict[str, Any]
     if comments is None:
         return []
     rows = []
-    for problem in comments.split(joined_problems(context, settings.rules, suppress=False), ())[1]:
-        comment = comments.hiding(problem)
-        (finding,) = context.deck.diagnose([problem])
-        rows.append(_finding(finding, context) | {"reason": "" if comment is None else comment.reason})
+    for problem in joined_problems(context, settings.rules, suppress=False):
+        if comment := comments.hiding(problem):
+            (finding,) = context.deck.diagnose([problem])
+            rows.append(_finding(finding, context) | {"reason": comment.reason})
     return rows
 
 
