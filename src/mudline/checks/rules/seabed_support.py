@@ -154,13 +154,14 @@ def _line(scene: Scene, below: Floats) -> _Line | None:
         used[ends] = True
     if not used.any():
         return None
-    extent = LineExtent(*(_extent(axis, used) for axis in scene.coordinates.T), depth=scene.surroundings.depth)
+    x, y, z = (_extent(axis, used) for axis in scene.coordinates.T)
     highest, deepest = _extent(below, used)
     diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
     with np.errstate(invalid="ignore", over="ignore"):
-        distances = (scene.coordinates[used, axis] - level for axis, level in ((0, 0.0), (2, 0.0), (2, extent.z[0])))
+        distances = (scene.coordinates[used, axis] - level for axis, level in ((0, 0.0), (2, 0.0), (2, z[0])))
         flat = tuple(int(np.count_nonzero(np.abs(each) <= diameter)) for each in distances)
     level = int((below[used] >= deepest - ROUNDED * diameter).sum())
+    extent = LineExtent(x, y, z, scene.surroundings.depth)
     return _Line(used, extent, (-deepest, -highest), diameter, flat, level)
 
 

@@ -56,10 +56,10 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     if not used.size or not np.isfinite(used).all():
         return ""
     depth = scene.surroundings.depth
-    extent = LineExtent(*zip(used.min(axis=0).tolist(), used.max(axis=0).tolist(), strict=True), depth=depth)
-    if sign := extent.height_along_z():
+    x, y, z = zip(used.min(axis=0).tolist(), used.max(axis=0).tolist(), strict=True)
+    if sign := LineExtent(x, y, z, depth).height_along_z():
         return sign
-    (low_x, high_x), (low_z, high_z) = extent.x, extent.z
+    (low_x, high_x), (low_z, high_z) = x, z
     first, second = places[ends[:, 0]], places[ends[:, 1]]
     run = np.abs(second - first)
     along_x = (run[:, 0] > 0.0) & (run[:, 2] <= LEVEL * run[:, 0]) & (run[:, 1] <= run[:, 0])
