@@ -39,11 +39,11 @@ def test_the_nearest_file_counts_and_one_without_a_table_does_not(tmp_path: Path
     (tmp_path / "a" / "pyproject.toml").write_text("[tool.other]\nx = 1\n", encoding="utf-8")
     search = Configured()
     assert search.of(str(deep / "-")).path == tmp_path / "mudline.toml"
-    assert search.of(str(tmp_path / "a" / "-")).words("ignore") == ["LEG"]
+    assert search.of(str(tmp_path / "a" / "-")).value("ignore") == ["LEG"]
     (tmp_path / "a" / "pyproject.toml").write_text('x = 1\n[tool.mudline]\nselect = ["REF"]\n', encoding="utf-8")
     found = Configured().of(str(deep / "-"))
     path = tmp_path / "a" / "pyproject.toml"
-    assert (found.path, found.words("select"), found.origins) == (path, ["REF"], {"select": (path, 3)})
+    assert (found.path, found.value("select"), found.origins) == (path, ["REF"], {"select": (path, 3)})
 
 
 def _write(folder: Path, **texts: str) -> Path:
@@ -83,7 +83,7 @@ def test_a_pyproject_may_be_a_base(tmp_path: Path) -> None:
     path = _write(tmp_path, mudline='extend = "pyproject.toml"\n', pyproject='[tool.mudline]\nselect = ["REF"]\n')
     found = read_configuration(path)
     assert found is not None
-    assert found.words("select") == ["REF"]
+    assert found.value("select") == ["REF"]
 
 
 @pytest.mark.parametrize(

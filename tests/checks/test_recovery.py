@@ -126,7 +126,7 @@ def test_a_deck_that_is_refused_is_refused_with_the_cause(change: tuple[str, str
     deck = load_bytes(changed(change).encode(), "deck.keyxm")
     refused = deck.diagnose(resolve(deck).blocking())
     if refused:
-        assert named_causes(deck, refused, rules()) == [only(changed(change))]
+        assert named_causes(deck, refused) == [only(changed(change))]
 
 
 SECOND = {
@@ -218,7 +218,7 @@ def test_a_refused_deck_is_refused_with_the_cause() -> None:
     deck = load_bytes(changed(("*NODE\n", "*NODS\n")).encode(), "deck.keyxm")
     refused = deck.diagnose(resolve(deck).blocking())
     assert [one.code for one in refused] == ["REF006"] * 3
-    assert [(one.code, one.line) for one in named_causes(deck, refused, rules())] == [("SYN009", 4)]
+    assert [(one.code, one.line) for one in named_causes(deck, refused)] == [("SYN009", 4)]
 
 
 def test_a_proposed_line_ends_as_those_of_the_file() -> None:

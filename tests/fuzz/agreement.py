@@ -11,9 +11,8 @@ from pathlib import Path
 
 from mudline.checks.engine import Fixing, LintSettings, lint_bytes, naming_causes
 from mudline.checks.fixing import FixState, StageReader, fix_bytes
-from mudline.checks.overview import overview
 from mudline.checks.registry import rules, select
-from mudline.checks.verdict import errors_beside, judge_content
+from mudline.checks.verdict import errors_beside, judge_content, overview
 from mudline.editing.comparison.decks import compare_decks
 from mudline.editing.variations.planning import plan
 from mudline.language.deck.keyword_text import with_raw_lines

@@ -25,8 +25,7 @@ from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
-    from mudline.checks.overview import Overview
-    from mudline.checks.verdict import Judgement
+    from mudline.checks.verdict import Judgement, Overview
     from mudline.editing.comparison.decks import Comparison
     from mudline.editing.comparison.matrix import DiffRow
     from mudline.editing.migration.migrating import Verification
@@ -225,7 +224,7 @@ def show(deck: GivenDeck) -> Overview:
         OSError: the file cannot be read.
         DeckError: the file is not a deck. A deck with errors is shown as far as it can be read.
     """
-    from mudline.checks.overview import overview  # noqa: PLC0415 - as above
+    from mudline.checks.verdict import overview  # noqa: PLC0415 - as above
 
     return overview(deck.alone.placed() if isinstance(deck, Deck) else load_path(given_path(deck, name="deck")))
 

@@ -23,7 +23,16 @@ TABLES = ("per-file-ignores", "severity")
 EXTEND = "extend"
 NO_OUTSIDE = "no-outside"
 ENCODING = "encoding"
-KEYS = (EXTEND, *LISTS, *WORDS, NO_OUTSIDE, ENCODING, *TABLES)
+DEFAULTS: Values = {
+    EXTEND: "",
+    **{key: [] for key in LISTS},
+    "fail-on": "warning",
+    "dialect": "mudline",
+    NO_OUTSIDE: False,
+    ENCODING: "",
+    **{key: {} for key in TABLES},
+}
+"""Value of each key that is not set."""
 _ADDED = "extend-select"
 OF_CODES = ("select", "ignore", "extend-select", "fixable", "unfixable")
 SEVERITIES = ("error", "warning", "info", "off")
@@ -75,23 +84,14 @@ class Configuration:
         content = b"%d %b%b" % (len(self.content), self.content, base.content)
         return Configuration(self.path, values, base.origins | self.origins, content)
 
-    def words(self, key: str) -> list[str]:
-        """Return a list, empty if it is not set."""
-        return list(self.values.get(key, ()))
-
-    def table(self, key: str) -> dict[str, Any]:
-        """Return a table, empty if it is not set."""
-        return dict(self.values.get(key, {}))
+    def value(self, key: str) -> Any:  # noqa: ANN401 - of the kind of its key
+        """Return the value of a key, or its default."""
+        return self.values.get(key, DEFAULTS[key])
 
     def lists(self, key: str, path: str) -> bool:
         """Return True if a pattern of a list, `include` or `exclude`, matches the path of a file."""
-        patterns = self.words(key)
+        patterns = self.value(key)
         return bool(patterns) and matches(self.relative(path), patterns)
-
-    @property
-    def fail_on(self) -> str:
-        """Least severity of findings for which a run fails."""
-        return str(self.values.get("fail-on", "warning"))
 
     def relative(self, path: str) -> str:
         """Return a path as seen from the folder of the configuration, with `/`."""
@@ -109,15 +109,13 @@ class CallerSettings(NamedTuple):
     no_outside: bool = False
 
 
-def read_configuration(
-    path: Path, *, demanded: bool = True, code_fault: CodeFault | None = None
-) -> Configuration | None:
-    """Return the configuration in a file; None for a pyproject.toml without `[tool.mudline]` that is not `demanded`.
+def read_configuration(path: Path, code_fault: CodeFault | None = None) -> Configuration | None:
+    """Return the configuration in a file; None for a pyproject.toml without `[tool.mudline]`.
 
     Files that it extends are read too. Words for rules are checked by `code_fault`
     (`mudline.checks.registry.code_fault`), and not checked without it. Raises OSError and ConfigurationError.
     """
-    outermost = _read_one(path, demanded=demanded, code_fault=code_fault)
+    outermost = _read_one(path, code_fault)
     if outermost is None or EXTEND not in outermost.values:
         return outermost
     chain, at, whole = [path], outermost, [outermost]
@@ -129,17 +127,16 @@ def read_configuration(
             names = " -> ".join(file.as_posix() for file in (*chain[known.index(real) :], base))
             raise ConfigurationError(f"{place} leads back to itself: {names}")
         try:
-            read = _read_one(base, demanded=True, code_fault=code_fault)
+            at = _read_one(base, code_fault) or Configuration(base)
         except OSError as error:
             why = (error.strerror or str(error)).lower()
             raise ConfigurationError(f"{place}: {base.as_posix()} cannot be read: {why}") from error
-        at = read or Configuration(base)
         chain.append(base)
         whole.append(at)
     return reduce(lambda above, own: own.over(above), reversed(whole))
 
 
-def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Configuration | None:
+def _read_one(path: Path, code_fault: CodeFault | None) -> Configuration | None:
     """Return the configuration in the file alone, without the files that it extends."""
     reading(path)
     content = path.read_bytes()
@@ -156,9 +153,8 @@ def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Co
     if path.name == "pyproject.toml":
         tool = document.get("tool")
         values = tool.get("mudline") if isinstance(tool, dict) else None
-        if values is None and not demanded:
+        if values is None:
             return None
-        values = {} if values is None else values
     return _ConfigurationFile(path, content, text, code_fault).checked(values)
 
 
@@ -184,8 +180,8 @@ class _ConfigurationFile:
         return Configuration(self.path, values, origins, self.content)
 
     def check(self, key: str, value: object) -> None:
-        if key not in KEYS:
-            raise self.error(key, f"unknown key {key!r}{_hint(key, KEYS)}")
+        if key not in DEFAULTS:
+            raise self.error(key, f"unknown key {key!r}{_hint(key, DEFAULTS)}")
         if key in (EXTEND, NO_OUTSIDE, ENCODING):
             self.single(key, value)
         elif key in WORDS:
@@ -289,15 +285,14 @@ class Configured:
             if place not in self._in_folder:
                 files = (place / name for name in ("mudline.toml", "pyproject.toml"))
                 there = filter(os.path.isfile, files)  # Path raises for a folder that may not be searched
-                read = (self._read(file, demanded=False) for file in there)
-                self._in_folder[place] = next((each for each in read if each), None)
+                self._in_folder[place] = next(filter(None, map(self._read, there)), None)
             if here := self._in_folder[place]:
                 return here
         return Configuration()
 
-    def _read(self, path: Path, *, demanded: bool = True) -> Configuration | None:
+    def _read(self, path: Path) -> Configuration | None:
         try:
-            return read_configuration(path, demanded=demanded, code_fault=self.code_fault)
+            return read_configuration(path, self.code_fault)
         except OSError as error:
             what = f"{error.filename}: the configuration cannot be read"
             raise ConfigurationError(f"{what}: {(error.strerror or str(error)).lower()}") from error
@@ -316,7 +311,7 @@ class Configured:
 
     def encoding(self, path: str) -> str:
         """Return the encoding that the file's configuration gives, "" if it gives none."""
-        return str(self.of(path).values.get(ENCODING, ""))
+        return str(self.of(path).value(ENCODING))
 
     def excludes(self, path: str) -> bool:
         """Return True if `exclude` of the file's configuration leaves the file out."""
@@ -330,4 +325,4 @@ def refuses_outside(folder: Path) -> bool:
         configuration = Configured().of(str(folder / "-"))
     except ConfigurationError:
         return True
-    return bool(configuration.values.get(NO_OUTSIDE))
+    return bool(configuration.value(NO_OUTSIDE))

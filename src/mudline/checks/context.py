@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import chain, islice
@@ -22,6 +22,7 @@ from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.language.syntax.tree import RawBlock
 from mudline.model.scene.context import placed_blocks
+from mudline.model.scene.context import records_of as records_of  # noqa: PLC0414 - rules take it here
 from mudline.model.scene.model import Scene, resolve
 
 T = TypeVar("T")
@@ -62,6 +63,10 @@ class LintContext:
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """Return `Deck.blocks` of the deck of the scene, whose equations are evaluated."""
         return self.scene.context.placed.get((section, keyword), ())
+
+    def records(self, keyword: str, name: str = "sets", section: str = "MODEL") -> list[tuple[Where, Any]]:
+        """Return `records_of` the same blocks."""
+        return self.scene.context.records(keyword, name, section)
 
     def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """Return `Deck.blocks` of the deck itself, with its equations."""
@@ -154,15 +159,6 @@ def read_deck(
 
 
 # ---------------------------------------------------------------------------------------------- for rules
-
-
-def records_of(blocks: Iterable[tuple[Where, Any]], name: str = "sets") -> list[tuple[Where, Any]]:
-    """Return every record in a list of some blocks, by default what stands below a SET=, with its place."""
-    return [
-        (where._replace(path=(name, index)), record)
-        for where, block in blocks
-        for index, record in enumerate(getattr(block, name) or ())
-    ]
 
 
 def of_variations(deck: Deck) -> Iterator[Problem]:

@@ -181,13 +181,23 @@ def may_recover(deck: Deck) -> bool:
     return False
 
 
-def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
+def all_findings(context: LintContext) -> list[Problem]:
+    """Return the findings of all rules in a deck, including those that its comments suppress."""
+    return joined_problems(context, rules(), suppress=False)
+
+
+def errors_of(problems: list[Problem]) -> list[Problem]:
+    """Return the findings that make a deck illegal, the same in every command."""
+    return [problem for problem in problems if problem.weight is Severity.ERROR]
+
+
+def named_causes(deck: Deck, refused: Sequence[Diagnostic]) -> list[Diagnostic]:
     """Return the reasons why a deck was refused, with causes instead of their consequences."""
     codes = {one.code for one in refused}
     context = LintContext(deck)
     reported = [
         one
-        for one in joined_problems(context, chosen, suppress=False)
+        for one in all_findings(context)
         if one.blocking is Blocks.ALWAYS or (one.blocking is Blocks.WITH_TENSION and one.code.code in codes)
     ]
     return context.deck.diagnose(reported) or list(refused)
@@ -199,7 +209,7 @@ def naming_causes(deck: Deck) -> Iterator[None]:
     try:
         yield
     except DeckError as error:
-        raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
+        raise DeckError(named_causes(deck, error.diagnostics)) from error
 
 
 D = TypeVar("D", bound=Deck)
@@ -209,8 +219,7 @@ def readable(deck: D) -> D:
     """Return a deck; raises DeckError if something could not be read, with causes instead of their consequences."""
     if errors := deck.errors():
         context = LintContext(deck)
-        found = joined_problems(context, rules(), suppress=False)
-        causes = [one for one in found if one.weight is Severity.ERROR and one.code.code.startswith("SYN")]
+        causes = [one for one in errors_of(all_findings(context)) if one.code.code.startswith("SYN")]
         raise DeckError(context.deck.diagnose(causes) or deck.diagnose(errors))
     return deck
 
@@ -220,17 +229,14 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
 
     Suppressed problems are included; unused suppression comments are not.
     """
-    found: list[Problem] = []
     noticed = context.noticed
-    advice = iter(findings([rule for rule in chosen if rule.check is not None and not rule.blocks], context))
-    for rule in chosen:
-        if rule.check is None or rule.blocks:
-            found += noticed.get(rule.code.code, ())
-        else:
-            # Advice does not keep a deck from being evaluated.
-            found += [
-                one if one.blocking is Blocks.NEVER else replace(one, blocks=Blocks.NEVER) for one in next(advice)
-            ]
+    advising = {rule.code.code: rule for rule in chosen if rule.check is not None and not rule.blocks}
+    codes = (rule.code.code for rule in chosen if rule.code.code not in advising)
+    found = [problem for code in codes for problem in noticed.get(code, ())]
+    for advice in findings(advising.values(), context):
+        # Advice does not keep a deck from being evaluated.
+        found += [one if one.blocking is Blocks.NEVER else replace(one, blocks=Blocks.NEVER) for one in advice]
+    found.sort(key=lambda problem: problem.code.code)
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 
@@ -243,7 +249,7 @@ def of_base(deck: Deck, problem: Problem) -> bool:
 def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
     """Return the problems that comments of the deck do not suppress, and the comments that suppress nothing."""
     found = context.once(suppressions)
-    return problems if found is None else found.split(problems, chosen)[0]
+    return problems if found is None else found.reported([*problems, *found.unused(problems, chosen)])
 
 
 def lint_bytes(

@@ -27,7 +27,7 @@ class Settings:
     def of(self, path: str) -> LintSettings:
         """Return the settings of a file, by its path or the name given for standard input."""
         found = self.configured.of(path)
-        ignores = found.table("per-file-ignores").items()
+        ignores = found.value("per-file-ignores").items()
         hidden = tuple(code for glob, codes in ignores if matches(found.relative(path), [glob]) for code in codes)
         if (found.path, hidden) not in self._made:
             self._made[found.path, hidden] = self.merged(found, hidden)
@@ -35,12 +35,12 @@ class Settings:
 
     def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
         """Return a configuration overridden by the caller's settings; `hidden` are codes that it ignores in a file."""
-        given, severity = self.given, found.table("severity")
-        chosen = list(given.chosen) or found.words("select")
+        given, severity = self.given, found.value("severity")
+        chosen = list(given.chosen) or found.value("select")
         ignored, also = [*given.ignored, *hidden], [*given.also]
         if not given.chosen:
-            ignored += [*found.words("ignore"), *(code for code, word in severity.items() if word == "off")]
-            also += found.words("extend-select")
+            ignored += [*found.value("ignore"), *(code for code, word in severity.items() if word == "off")]
+            also += found.value("extend-select")
         running = select(chosen, ignored, also)
         severities = {
             rule.code.code: Severity(word)
@@ -48,17 +48,17 @@ class Settings:
             if word != "off"
             for rule in select([code])
         }
-        unfixable, fixable = _codes(found.words("unfixable")), found.words("fixable")
+        unfixable, fixable = _codes(found.value("unfixable")), found.value("fixable")
         if fixable:
             unfixable |= {rule.code.code for rule in rules()} - _codes(fixable)
         return LintSettings(
             running,
             given.units,
-            given.dialect or found.values.get("dialect", "mudline"),
+            given.dialect or found.value("dialect"),
             severities,
             self.fixing,
             unfixable,
-            given.no_outside or bool(found.values.get(NO_OUTSIDE)),
+            given.no_outside or found.value(NO_OUTSIDE),
         )
 
 

@@ -82,18 +82,14 @@ class Suppressions:
     directives: list[Directive] = field(default_factory=list)
     misspelt: list[tuple[Word, str]] = field(default_factory=list)
 
-    def split(self, problems: Sequence[Problem], chosen: Iterable[Rule]) -> tuple[list[Problem], list[Problem]]:
-        """Return the problems that are reported, and those that are hidden.
+    def reported(self, problems: Iterable[Problem]) -> list[Problem]:
+        """Return the problems that no comment hides."""
+        return [problem for problem in problems if not self.hiding(problem)]
 
-        STY010 is added for comments that hide nothing, if that rule and the rules named there are among the chosen.
-        """
+    def unused(self, problems: Sequence[Problem], chosen: Iterable[Rule]) -> list[Problem]:
+        """Return STY010 for comments that hide none of the problems, if the rules named there are among the chosen."""
         selected = {rule.code.code for rule in chosen}
-        unused = first_reported(self._unused(problems, selected)) if STY010.code in selected else []
-        reported: list[Problem] = []
-        hidden: list[Problem] = []
-        for problem in [*problems, *unused]:
-            (hidden if self.hiding(problem) else reported).append(problem)
-        return reported, hidden
+        return first_reported(self._unused(problems, selected)) if STY010.code in selected else []
 
     def hiding(self, problem: Problem) -> Directive | None:
         """Return the comment that hides a problem; a comment without codes does not hide that it is unused."""

@@ -1,20 +1,23 @@
-"""Verdict on a deck: its errors and warnings, and how much of it was read."""
+"""Verdict on a deck: its errors and warnings, and how much of it was read; its contents, as far as they can be read."""
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mudline.basics.short_repr import counted
 from mudline.checks.context import LintContext
-from mudline.checks.engine import joined_problems, unsuppressed
+from mudline.checks.engine import all_findings, errors_of, of_base, unsuppressed
 from mudline.checks.registry import rules, select
 from mudline.language.codes.contact import SBD006
 from mudline.language.deck.loading import coverage_of, load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity
 from mudline.model.results.warnings import seabed_warnings
+
+if TYPE_CHECKING:
+    from mudline.model.scene.sheet import Sheet
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,10 +61,8 @@ class Verdict:
 
     def row(self) -> dict[str, Any]:
         """Return the verdict as an object of the JSON output."""
-        words = self.keywords
         head = {"file": self.file, "ok": self.ok, "verdict": str(self), "errors": self.errors}
-        counts = {"warnings": self.warnings, "unread": words.total - words.read, "sections": self.sections}
-        return head | counts | {"keywords": asdict(words), "curves": self.curves, "elements": self.elements}
+        return head | {"warnings": self.warnings, "unread": self.keywords.total - self.keywords.read} | asdict(self)
 
 
 class Judgement(NamedTuple):
@@ -75,16 +76,6 @@ class Judgement(NamedTuple):
 def refused(file: str, error: DeckError) -> Verdict:
     """Return the verdict on a file that holds no deck."""
     return Verdict(file, len(error.diagnostics))
-
-
-def all_findings(context: LintContext) -> list[Problem]:
-    """Return the findings of all rules in a deck, including those that its comments suppress."""
-    return joined_problems(context, rules(), suppress=False)
-
-
-def errors_of(problems: list[Problem]) -> list[Problem]:
-    """Return the findings that make a deck illegal, the same in every command."""
-    return [problem for problem in problems if problem.weight is Severity.ERROR]
 
 
 def errors_beside(deck: Deck) -> list[Diagnostic]:
@@ -122,3 +113,32 @@ def _warnings(context: LintContext, problems: list[Problem], *, ok: bool) -> lis
     reported = {each.code.code for each in problems if each.weight is Severity.WARNING}
     more = seabed_warnings(context.scene) if ok and SBD006.code not in reported else []
     return [*context.deck.diagnose(own), *(each.diagnostic for each in more if each.diagnostic.code not in reported)]
+
+
+# ------------------------------------------------------------------------------------------------------------- contents
+
+
+class Overview(NamedTuple):
+    """Overview of a deck.
+
+    Attributes:
+        summary: sections, keywords, counts, sets, curves, diameters and laws, as `mudline show --output-format json`.
+        sheet: `columns` by key, with heading and unit, and in `rows` the values of each run of elements with the same
+            properties, by the same keys.
+        errors: reasons why the deck is not legal; summary and sheet may lack parts because of them.
+    """
+
+    summary: dict[str, Any]
+    sheet: Sheet
+    errors: list[Diagnostic]
+
+
+def overview(deck: Deck) -> Overview:
+    """Return the overview of a deck; never raises for its content."""
+    from mudline.model.results.summary import summarise  # noqa: PLC0415 - a verdict does without it
+    from mudline.model.scene.sheet import sheet_of  # noqa: PLC0415 - as above
+
+    context = LintContext(deck)
+    scene = context.scene
+    errors = [*errors_of(all_findings(context)), *(problem for problem in scene.errors() if of_base(deck, problem))]
+    return Overview(summarise(scene), sheet_of(scene), scene.deck.diagnose(errors))

@@ -9,19 +9,10 @@ from typing import Any
 
 import click
 
-from mudline.checks.configuration import (
-    ENCODING,
-    EXTEND,
-    KEYS,
-    NO_OUTSIDE,
-    TABLES,
-    Configured,
-)
+from mudline.checks.configuration import DEFAULTS, Configured
 from mudline.checks.output import visible
 from mudline.cli import DONE, options
 from mudline.cli.streams import emit
-
-_DEFAULTS = {EXTEND: "", ENCODING: "", "fail-on": "warning", "dialect": "mudline", NO_OUTSIDE: False}
 
 
 @options.command("config")
@@ -37,12 +28,12 @@ def command(*, path: str, config: str | None, isolated: bool, output_format: str
     inside = str(Path(path) / "-") if os.path.isdir(path) else path  # noqa: PTH112 - Path raises for a long name
     configuration = Configured(config, isolated, code_fault).of(inside)
     rows: list[tuple[str, Any, str]] = []
-    for key in KEYS:
+    for key, default in DEFAULTS.items():
         if key in configuration.values:
             file, line = configuration.origins[key]
             rows.append((key, configuration.values[key], f"{file.as_posix()}:{line}"))
         else:
-            rows.append((key, _DEFAULTS.get(key, {} if key in TABLES else []), "default"))
+            rows.append((key, default, "default"))
     if output_format == "json":
         emit([json.dumps([dict(zip(("key", "value", "from"), row, strict=True)) for row in rows], indent=1), "\n"])
     else:

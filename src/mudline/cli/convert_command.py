@@ -178,7 +178,7 @@ def _require_values(deck: Deck) -> None:
     """Raise DeckError with the errors of a deck some of whose values no document holds."""
     if not any(is_refused(block) for _, _, block in deck.every_block() if isinstance(block, Block)):
         return
-    from mudline.checks.verdict import all_findings, errors_of  # noqa: PLC0415 - only a faulty deck is checked
+    from mudline.checks.engine import all_findings, errors_of  # noqa: PLC0415 - only a faulty deck is checked
 
     raise DeckError(deck.diagnose(errors_of(all_findings(LintContext(deck)))))
 

@@ -14,7 +14,7 @@ import click
 from mudline.basics.installed import may_declare
 from mudline.basics.overwriting import claim
 from mudline.checks.configuration import Configured
-from mudline.checks.output import TEXT, form_module, form_names, visible
+from mudline.checks.output import TEXT, by_severity, form_module, form_names, visible
 from mudline.checks.pages import GROUP
 from mudline.cli.inputs import Input
 from mudline.cli.streams import Line, Part, View, counted, emit, notify, say, write_text
@@ -82,7 +82,8 @@ class LintReport:
 
     def add(self, file: Input, data: bytes, findings: list[Diagnostic], fixed: int) -> None:
         """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
-        name, limit = file.name, Severity(self.wanted.fail_on or self.configured.of(file.path or file.name).fail_on)
+        name, configuration = file.name, self.configured.of(file.path or file.name)
+        limit = Severity(self.wanted.fail_on or configuration.value("fail-on"))
         self.names.append(name)
         self.found += findings
         self.fixed += fixed
@@ -203,10 +204,8 @@ def _lines(findings: Iterable[Diagnostic], source: Source, view: View) -> Iterat
 def print_summary(view: View, findings: Sequence[Diagnostic], files: int) -> None:
     """Print how many findings of each severity there are in how many files."""
     parts: list[Part] = []
-    for severity, style in STYLES.items():
-        if count := sum(finding.severity is severity for finding in findings):
-            word = f"{count} {severity.value}" if severity is Severity.INFO else counted(count, severity.value)
-            parts += [", ", (word, style)]
+    for severity, words in by_severity(findings):
+        parts += [", ", (words, STYLES[severity])]
     view.lines([["Found ", *parts[1:], f" in {counted(files, 'file')}."]])
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from mudline.checks.configuration import ENCODING, EXTEND, KEYS, LISTS, NO_OUTSIDE, OF_CODES, SEVERITIES, WORDS
+from mudline.checks.configuration import DEFAULTS, ENCODING, EXTEND, LISTS, NO_OUTSIDE, OF_CODES, SEVERITIES, WORDS
 from mudline.checks.pages import origin
 from mudline.cli import DONE, options
 from mudline.cli.streams import emit_json
@@ -54,7 +54,7 @@ def configuration_schema() -> dict[str, Any]:
     own = [rule.code for rule in rules() if origin(rule.code.code) == "mudline"]
     families = dict.fromkeys(code.code.rstrip("0123456789") for code in own)
     known = [*families, *(word for code in own for word in (code.code, code.slug))]
-    properties = {key: {"description": MEANINGS[key], **_values(key)} for key in KEYS}
+    properties = {key: {"description": MEANINGS[key], **_values(key)} for key in DEFAULTS}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "mudline.toml, or [tool.mudline] of a pyproject.toml",

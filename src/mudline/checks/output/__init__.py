@@ -8,15 +8,15 @@ people, is printed by the command as findings come.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from hashlib import sha256
 from importlib import import_module
 from pkgutil import iter_modules
 from types import ModuleType
 
 from mudline.basics.limits import LONGEST_MESSAGE
-from mudline.basics.short_repr import cut
-from mudline.language.diagnostics import Diagnostic
+from mudline.basics.short_repr import counted, cut
+from mudline.language.diagnostics import Diagnostic, Severity
 
 TEXT = "text"
 """Format for people, which is printed to the terminal as findings come."""
@@ -45,6 +45,13 @@ def with_fingerprints(diagnostics: Iterable[Diagnostic]) -> Iterator[tuple[Diagn
         met[known] += 1
         text = "\0".join([*known, str(met[known])])
         yield found, sha256(text.encode("utf-8", "backslashreplace")).hexdigest()
+
+
+def by_severity(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[Severity, str]]:
+    """Yield the severities of some findings, worst first, each with its number of findings: `2 errors`, `1 info`."""
+    for severity in reversed(Severity):
+        if count := sum(found.severity is severity for found in diagnostics):
+            yield severity, f"{count} info" if severity is Severity.INFO else counted(count, severity.value)
 
 
 def visible(text: str, encoding: str = "utf-8") -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from mudline.checks.pages import page
-from mudline.language.diagnostics import Diagnostic, Fix
+from mudline.language.diagnostics import Diagnostic
 
 SUMMARY = "an [array of objects](json.md#findings)"
 
@@ -28,6 +28,7 @@ def array(objects: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 def as_object(finding: Diagnostic) -> dict[str, Any]:
     """Return a finding as a dict."""
+    fix = finding.fix
     return {
         "file": finding.file,
         "code": finding.code,
@@ -38,11 +39,6 @@ def as_object(finding: Diagnostic) -> dict[str, Any]:
         "column": finding.column,
         "end_line": finding.end_line,
         "end_column": finding.end_column,
-        "fix": None if finding.fix is None else _fix(finding.fix),
+        "fix": fix and fix._asdict() | {"edits": [edit._asdict() for edit in fix.edits]},
         "url": page(finding.code),
     }
-
-
-def _fix(fix: Fix) -> dict[str, Any]:
-    edits = [{"start": list(edit.start), "end": list(edit.end), "text": edit.text} for edit in fix.edits]
-    return {"applicability": fix.applicability, "message": fix.message, "edits": edits}

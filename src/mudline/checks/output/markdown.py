@@ -6,13 +6,12 @@ A host takes about a million characters. No text of a deck can act as markup, li
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from mudline.basics.short_repr import counted
-from mudline.checks.output import visible
+from mudline.checks.output import by_severity, visible
 from mudline.checks.pages import page
-from mudline.language.diagnostics import Diagnostic, Severity
+from mudline.language.diagnostics import Diagnostic
 
 SUMMARY = (
     "a table in Markdown for the summary of a job or a note on a merge request: errors first, "
@@ -30,10 +29,7 @@ def write(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[s
     if not listed:
         yield f"### mudline: no findings in {linted}\n"
         return
-    counts = Counter(finding.severity for finding in listed)
-    words = {each: counted(counts[each], each.value) for each in (Severity.ERROR, Severity.WARNING)}
-    words[Severity.INFO] = f"{counts[Severity.INFO]} info"
-    yield f"### mudline: {', '.join(word for each, word in words.items() if counts[each])} in {linted}\n\n"
+    yield f"### mudline: {', '.join(words for _, words in by_severity(listed))} in {linted}\n\n"
     yield "| severity | place | rule | message |\n| --- | --- | --- | --- |\n"
     for finding in listed[:_MOST]:
         place = _plain(f"{finding.file.removeprefix('./')}:{finding.line}:{finding.column}")

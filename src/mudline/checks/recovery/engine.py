@@ -143,7 +143,7 @@ def recovered(context: LintContext, codes: Collection[str], *, suppress: bool) -
     found = Recovered(context, None if of_text else deck.units)
     hiding = context.once(suppressions) if suppress else None
     reported = [one for one in deck.problems if one.code.code in codes]
-    reported = hiding.split(reported, ())[0] if hiding else reported
+    reported = hiding.reported(reported) if hiding else reported
     trials = MOST_TRIALS
     while len(found.steps) < MOST_ROUNDS and (text := found.context.text) is not None:
         round_ = _Round(Blocks(found.context.deck, text), codes, trials)
@@ -155,15 +155,14 @@ def recovered(context: LintContext, codes: Collection[str], *, suppress: bool) -
         late = values.scene_corrections(found.context)
         wanted = [one for one in late if one.cause.code.code in codes]
         if hiding:
-            wanted = [one for one in wanted if hiding.split([*found.as_written([one.cause])], ())[0]]
+            wanted = [one for one in wanted if hiding.reported(found.as_written([one.cause]))]
         found.take(wanted)
     return found if found.steps else None
 
 
 def _cause(correction: Correction) -> Problem:
     cause = correction.cause
-    edits = tuple((edit.span, edit.text) for edit in correction.edits)
-    repair = Repair("unsafe", correction.does, edits) if correction.does else cause.repair
+    repair = Repair("unsafe", correction.does, correction.edits) if correction.does else cause.repair
     return replace(cause, message=correction.message or cause.message, repair=repair)
 
 

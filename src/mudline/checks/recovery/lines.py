@@ -105,6 +105,14 @@ class Blocks:
         spot = self.at(offset)
         return catalogue.block_class(spot.section.name, spot.keyword)
 
+    def line_of(self, problem: Problem) -> Span:
+        """Return the line of a problem, without its end."""
+        return self.text.source.line_around(start_of(self.text, problem))
+
+    def first_of_lines(self, problems: Sequence[Problem]) -> dict[Span, Problem]:
+        """Return the lines of some problems, each with its first problem."""
+        return {self.line_of(one): one for one in reversed(problems)}
+
     @cached_property
     def _names(self) -> list[NamedPlace]:
         return self.deck.names()
@@ -139,7 +147,7 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     Lines without a problem are considered in column 1 only.
     """
     text = blocks.text
-    problems_by_line = {text.source.line_around(start_of(text, item)).start: item for item in reversed(problems)}
+    problems_by_line = blocks.first_of_lines(problems)
     for section in text.tree.sections:
         for leaf in (*section.leaves, *(leaf for block in section.blocks for leaf in block.leaves)):
             if leaf.kind not in (LeafKind.TEXT, LeafKind.UNDECIDED):
@@ -147,7 +155,7 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
             line = text.source.line_around(leaf.span.start)
             written = text.source.unified[slice(*line)].rstrip()
             name = _marked(written.lstrip(), section.name)
-            problem = problems_by_line.get(line.start)
+            problem = problems_by_line.get(line)
             if not name or (problem is None and written[:1].isspace()):
                 continue
             comment = problem.code is SYN013 if problem else leaf.kind is not LeafKind.TEXT
@@ -299,7 +307,7 @@ def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correct
             if block.head.span.start in wrong or section.name not in (catalogue.sections_of(block.name) or ()):
                 continue
             for cause in _first_lines(blocks, block, text.read.get((number, index))):
-                lines = Span(text.source.line_around(start_of(text, cause)).start, block.span.end)
+                lines = Span(blocks.line_of(cause).start, block.span.end)
                 found = [*_keyword_line(blocks, section.name, block.name, cause, lines, present)]
                 yield from (replace(one, message=f"{cause.message}{one.message}") for one in found)
                 if found:

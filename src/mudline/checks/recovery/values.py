@@ -84,14 +84,8 @@ def _goes_on(unified: str, at: int, number: str) -> bool:
 
 def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Yield corrections that put commas instead of spaces or semicolons between the numbers of rows."""
-    tried: Span | None = None
-    for problem in problems:
-        if problem.span is None or problem.weight is not Severity.ERROR:
-            continue
-        line = blocks.text.source.line_around(problem.span.start)
-        if line == tried:  # a line of 10^5 faults would be searched as often
-            continue
-        tried = line
+    errors = [one for one in problems if one.weight is Severity.ERROR]
+    for line, problem in blocks.first_of_lines(errors).items():
         written = blocks.text.source.unified[slice(*line)]
         if (replacement := _GAP.sub(", ", written)) != written:
             yield Correction(problem, (TextEdit(line, replacement),), line)
@@ -100,27 +94,24 @@ def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
 def indented_comments(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Yield corrections of comments with spaces before their C, which make them data: the spaces are removed."""
     unified = blocks.text.source.unified
-    lines = {blocks.text.source.line_around(start_of(blocks.text, item)).start: item for item in reversed(problems)}
-    for start, problem in lines.items():
-        if problem.weight is Severity.ERROR and (comment := INDENTED_COMMENT.match(unified, start)):
-            blanks = Span(start, start + len(comment[0]) - len(comment[0].lstrip(" \t")))
-            words = "an indented line is data: if it is meant as a comment, put its C in column 1"
-            message, line = f"{problem.message}; {words}", blocks.text.source.line_around(start)
+    for line, problem in blocks.first_of_lines(problems).items():
+        if problem.weight is Severity.ERROR and (comment := INDENTED_COMMENT.match(unified, line.start)):
+            blanks = Span(line.start, line.start + len(comment[0]) - len(comment[0].lstrip(" \t")))
+            message = f"{problem.message}; an indented line is data: if it is meant as a comment, put its C in column 1"
             yield Correction(problem, (TextEdit(blanks, ""),), line, message, does="put the C in column 1")
 
 
 def decimal_commas(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Yield corrections that join two fields, in a row with the maximum number of fields, by a decimal point."""
-    text = blocks.text
     others = (one for one in blocks.deck.problems if one.code is not SYN015 and one.weight is Severity.ERROR)
-    errors = {text.source.line_around(start_of(text, one)) for one in others}
+    errors = set(map(blocks.line_of, others))
     for problem in problems:
-        line = text.source.line_around(start_of(text, problem))
+        line = blocks.line_of(problem)
         if problem.span is None or line in errors:
             continue
         place = Span(problem.span.start, line.end)
-        edit = TextEdit(place, _HALVES.sub(r"\1.\2", text.source.unified[slice(*place)]))
-        repair = problem.repair or Repair("unsafe", f"write {edit.text.strip()}", ((edit.span, edit.text),))
+        edit = TextEdit(place, _HALVES.sub(r"\1.\2", blocks.text.source.unified[slice(*place)]))
+        repair = problem.repair or Repair("unsafe", f"write {edit.text.strip()}", (edit,))
         yield Correction(replace(problem, repair=repair), (edit,), line)
 
 
@@ -228,9 +219,10 @@ def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]
         if span is None:
             continue
         line = f"{'SET' if curve.embedment else 'CURVE'}={names.pop(0)}"
-        place = Span(text.source.line_around(span.start).start, text.source.line_around(span.start).start)
+        start = text.source.line_around(span.start).start
+        edit = TextEdit(Span(start, start), f" {line}\n")
         message = f"the points begin again here: the line {line} seems to be missing above this one"
-        yield Correction(Problem(SYN001, message, span), (TextEdit(place, f" {line}\n"),), span, does=f"write {line}")
+        yield Correction(Problem(SYN001, message, span), (edit,), span, does=f"write {line}")
 
 
 def _unused_set(context: LintContext) -> list[str]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mudline.checks.context import LintContext, records_of
+from mudline.checks.context import LintContext
 from mudline.checks.rules.model_parts import lacks, without_sections
 from mudline.checks.rules.references import in_water
 from mudline.checks.rules.seabed_support import in_another_pipe
@@ -66,13 +66,12 @@ def overlapping_properties(context: LintContext) -> Iterator[Problem]:
     reported: dict[frozenset[str], tuple[str, Where, list[str]]] = {}
     for gives in dict.fromkeys(block.facts.gives for _, block in blocks):
         giving = dict.fromkeys(block.keyword for _, block in blocks if block.facts.gives == gives)
-        places = [
-            (keyword, where, scene.set_table.find(entry.set_name))
+        known = [
+            (keyword, where, set_)
             for keyword in giving
-            for where, entry in records_of(context.blocks(keyword))
-            if is_name(entry.set_name)
+            for where, entry in context.records(keyword)
+            if is_name(entry.set_name) and (set_ := scene.set_table.find(entry.set_name)) and set_.elements.size
         ]
-        known = [(keyword, where, set_) for keyword, where, set_ in places if set_ is not None and set_.elements.size]
         for earlier, later, elements in overlaps([set_ for *_, set_ in known], count):
             (before, _, first), (keyword, where, second) = known[earlier], known[later]
             refined = before == keyword and (within(first, second, count) or within(second, first, count))
@@ -120,7 +119,7 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     if not any(in_water(context.deck)) or not lacks(context, "elements", "hydrodynamics"):
         return
     covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    for _, entry in records_of(context.blocks("HYDRODYNAMIC SETS")):
+    for _, entry in context.records("HYDRODYNAMIC SETS"):
         set_ = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
         if set_ is None:
             return

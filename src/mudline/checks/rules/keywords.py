@@ -105,7 +105,7 @@ def _migration(context: LintContext) -> Repair | None:
         return None
     unused = unused_definitions(context.scene, extended=extended)
     edits = with_line_ends(text.source, MigrationRewriter(deck, unused).rewrite()[0])
-    return Repair("unsafe", "write the newer keywords", tuple((edit.span, edit.text) for edit in edits))
+    return Repair("unsafe", "write the newer keywords", tuple(edits))
 
 
 @rule(SBD016)

@@ -339,7 +339,7 @@ def short_cable(context: LintContext) -> Iterator[Problem]:
     Finds: 6:12
     """
     scene = context.scene
-    for where, cable in records_of(context.blocks("CABLE"), "cables"):
+    for where, cable in context.records("CABLE", "cables"):
         ends = np.array([end for end in (cable.start, cable.end) if isinstance(end, int)], dtype=np.int64)
         places = scene.nodes.indices(ends)
         if len(places) < 2 or (places < 0).any():
@@ -371,9 +371,9 @@ def node_beyond_cable(context: LintContext) -> Iterator[Problem]:
 
     Finds: 8:8
     """
-    cables = (cable for _, cable in records_of(context.blocks("CABLE"), "cables") if isinstance(cable.cable, int))
+    cables = (cable for _, cable in context.records("CABLE", "cables") if isinstance(cable.cable, int))
     lengths = {float(cable.cable): number(cable, "length") for cable in cables}
-    for where, entry in records_of(context.blocks("NODE,CURVILINEAR"), "entries"):
+    for where, entry in context.records("NODE,CURVILINEAR", "entries"):
         table = getattr(entry, "nodes", None)
         rows = [] if table is None or table.values.shape[1] < 3 else table.values.tolist()
         for row, (_, cable, distance) in enumerate(rows):

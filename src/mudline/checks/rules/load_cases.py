@@ -79,7 +79,7 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
     moving = context.scene.deck.blocks_with("moves_vessels", "LOAD CASE")
     moved = {name_key(name) for _, block in moving for _, name in names_given(block, Names.VESSEL)}
     for keyword in catalogue.definers(Names.VESSEL):
-        for where, vessel in records_of(context.blocks(keyword), "vessels"):
+        for where, vessel in context.records(keyword, "vessels"):
             name = str(getattr(vessel, "vessel", None) or "")
             still = name and name_key(name) not in moved and not getattr(vessel, "rao", None)
             if still and not getattr(vessel, "unread", None):
@@ -243,7 +243,7 @@ def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
     """Yield the time steps of a load case: fixed ones, and the largest of variable ones."""
     for where, span in spans(context):
         yield where.inside("increment"), number(span, "increment")
-    for where, limits in records_of(context.blocks("TIME", "LOAD CASE"), "limits"):
+    for where, limits in context.records("TIME", "limits", "LOAD CASE"):
         yield where.inside("largest"), number(limits, "largest")
 
 
@@ -313,7 +313,7 @@ class _Wave(NamedTuple):
 def waves(context: LintContext) -> list[_Wave]:
     """Return the regular waves of a load case whose height and period are known."""
     found = []
-    for where, entry in records_of(context.blocks("WAVE-REGULAR", "LOAD CASE"), "waves"):
+    for where, entry in context.records("WAVE-REGULAR", "waves", "LOAD CASE"):
         height, period = 2.0 * number(entry.wave, "amplitude"), number(entry.wave, "period")
         found.append(_Wave(height, period, where.inside("wave", "amplitude")))
     for where, wave in by_height(context):
@@ -395,7 +395,7 @@ def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
     Finds: 13:2
     """
     depth = context.scene.surroundings.depth
-    for where, current in records_of(context.blocks("CURRENT", "LOAD CASE"), "currents"):
+    for where, current in context.records("CURRENT", "currents", "LOAD CASE"):
         elevations = current.profile.column(0) if current.profile is not None else np.zeros(0)
         if not depth > 0.0 or not elevations.size or np.isnan(elevations).any():
             continue
@@ -431,7 +431,7 @@ def two_kinds_of_drift(context: LintContext) -> Iterator[Problem]:
     Finds: 9:20
     """
     kinds: dict[str, str] = {}
-    for where, drift in records_of(context.blocks("DRIFT", "LOAD CASE"), "drifts"):
+    for where, drift in context.records("DRIFT", "drifts", "LOAD CASE"):
         if not drift.vessel or not drift.type_:
             continue
         kind = kinds.setdefault(name_key(drift.vessel), drift.type_)

@@ -196,7 +196,7 @@ def added_mass_order(context: LintContext) -> Iterator[Problem]:
     if context.deck.file.lower().endswith(".das"):
         return
     lines = []
-    for where, entry in records_of(context.blocks("HYDRODYNAMIC SETS")):
+    for where, entry in context.records("HYDRODYNAMIC SETS"):
         normal, tangential, inertia = (
             number(entry.constant, name) for name in ("normal_added_mass", "tangential_added_mass", "normal_inertia")
         )

@@ -58,7 +58,7 @@ def long_name(context: LintContext) -> Iterator[Problem]:
 
     Finds: 12:6
     """
-    for where, entry in records_of(context.blocks("ELEMENT SETS")):
+    for where, entry in context.records("ELEMENT SETS"):
         length = len(cast("str | None", entry.name) or "")
         if length > LONGEST_NAME:
             message = f"a set name of {length} characters: it must not be longer than {LONGEST_NAME}"
@@ -119,8 +119,8 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
         if source[slice(*between)].strip(" \t") not in ("", ","):
             return None
         edits.append(TextEdit(between, f"\n{indentation or ' '}"))
-    ended = with_line_ends(text.source, edits)
-    return Repair("safe", f"put at most {LONGEST_LIST} elements on a line", tuple((it.span, it.text) for it in ended))
+    ended = tuple(with_line_ends(text.source, edits))
+    return Repair("safe", f"put at most {LONGEST_LIST} elements on a line", ended)
 
 
 @rule(REF016)
@@ -358,7 +358,7 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    for where, vessel in records_of(context.blocks("RAO", "LOAD CASE"), "vessels"):
+    for where, vessel in context.records("RAO", "vessels", "LOAD CASE"):
         columns = [vessel.lines.column(column).tolist() for column in (0, 1)] if vessel.lines is not None else []
         rows = zip(*columns, strict=True)  # a heading and a frequency, NaN where it is not known
         if fault := unequal_frequencies([row for row in rows if not any(map(math.isnan, row))]):

@@ -16,10 +16,9 @@ from mudline.language.rules import rule
 from mudline.model.contact.seabed import heading
 from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.model.scene.deck_values import number
-from mudline.model.scene.given_positions import FLAT
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, first_of
-from mudline.model.scene.seabed import SeabedKind, SeabedShape, made_seabed
+from mudline.model.scene.seabed import FLAT, SeabedKind, SeabedShape, made_seabed
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
@@ -61,6 +60,8 @@ def _lowering(scene: Scene) -> Floats | None:
     trenches = scene.extensions.get("SEABED TRENCH")
     if trenches is None or not len(scene.node_ids):
         return None
+    from mudline.model.contact.laws.trench import lowered  # noqa: PLC0415 - most decks do without
+
     elements = np.flatnonzero(trenches.says(trenches.of_element, "level", "LOWERED"))
     block = trenches.of_element[elements]
     deep, bottom, top = (trenches.values(block, "geometry", name) for name in ("depth", "bottom_width", "upper_width"))
@@ -70,7 +71,7 @@ def _lowering(scene: Scene) -> Floats | None:
         _, y, z = scene.coordinates[nodes].T
         with np.errstate(all="ignore"):
             away = np.abs((y1 - y0) * (z - z0) - (z1 - z0) * (y - y0)) / np.hypot(y1 - y0, z1 - z0)
-            share = np.clip((top - 2.0 * away) / (top - bottom), 0.0, 1.0)
+            share = lowered(away, 0.5 * bottom, 0.5 * top)[0]
         known = nodes >= 0
         lower = deep * np.where(np.isnan(away), 1.0, share)  # without a line of its own it lies below the pipe
         np.fmax.at(lowering, nodes[known], lower[known])

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.checks.context import LintContext, records_of
+from mudline.checks.context import LintContext
 from mudline.checks.rules.seabed_position import depths, mean_depths
 from mudline.language.codes.contact import GEO005, GEO017, SBD006
 from mudline.language.codes.lines import SYN014
@@ -16,13 +16,12 @@ from mudline.language.diagnostics import Problem, Where
 from mudline.language.keywords.catalogue import is_superseded
 from mudline.language.rules import rule
 from mudline.model.contact.input import LawKind
-from mudline.model.scene.given_positions import FLAT, NEAR
 from mudline.model.scene.laws import present
 from mudline.model.scene.laws_in_use import block_without_stiffness, without_law
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of, first_of
 from mudline.model.scene.rules.fields import SBD004
-from mudline.model.scene.seabed import SeabedKind, survey_of
+from mudline.model.scene.seabed import FLAT, NEAR, LineExtent, SeabedKind, survey_of
 
 HIGHEST = 100.0
 """Height above the seabed, in diameters, at which a level line does not hang."""
@@ -65,8 +64,9 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if scene.context.external_definers or scene.context.restart or context.in_soil:
         return
-    if (line := _line(context)) is not None and (message := _above(line) or _along_z(line)):
-        lowest = int(np.where(line.used, context.once(depths), -np.inf).argmax())
+    below = context.once(depths)
+    if (line := _line(scene, below)) is not None and (message := _above(line) or _along_z(line)):
+        lowest = int(np.where(line.used, below, -np.inf).argmax())
         message = message.format(node=f"node {scene.node_ids[lowest]}")
         yield Problem(GEO005, message, where=scene.nodes.where(lowest))
 
@@ -119,23 +119,19 @@ def beyond_the_survey(context: LintContext) -> Iterator[Problem]:
         yield Problem(GEO017, f"{which} {survey.end}: {survey.consequence}", where=scene.nodes.where(int(left[0])))
 
 
-class _LineExtent(NamedTuple):
-    """Nodes (n,) that belong to elements with a seabed law, and their extent; NaN where a value is not known.
+class _Line(NamedTuple):
+    """Nodes (n,) that belong to elements with a seabed law, and where they lie; NaN where a value is not known.
 
     used: the nodes.
-    x, y, z: smallest and largest coordinates.
+    extent: smallest and largest coordinates.
     heights: smallest and largest heights above the seabed.
     diameter: the largest one.
-    depth: that of the water.
     """
 
     used: Mask
-    x: tuple[float, float]
-    y: tuple[float, float]
-    z: tuple[float, float]
+    extent: LineExtent
     heights: tuple[float, float]
     diameter: float
-    depth: float
     flat: tuple[int, ...]
     """Number of nodes within a diameter of X = 0, of Z = 0, and of the smallest Z."""
     level: int
@@ -148,9 +144,8 @@ ROUNDED = 1e-3
 """Height difference in diameters up to which nodes are on one level."""
 
 
-def _line(context: LintContext) -> _LineExtent | None:
-    """Return the extent of the line; None if nothing is known of it."""
-    scene = context.scene
+def _line(scene: Scene, below: Floats) -> _Line | None:
+    """Return where the line lies, of whose nodes the depths (n,) are `below`; None if nothing is known of it."""
     used = np.zeros(len(scene.node_ids), dtype=np.bool_)
     for block in blocks_of(len(scene.element_ids)):
         ends = scene.element_nodes[block][scene.law[block] != LawKind.NONE]
@@ -159,14 +154,15 @@ def _line(context: LintContext) -> _LineExtent | None:
         used[ends] = True
     if not used.any():
         return None
-    deepest, highest = _extent(context.once(depths), used)[::-1]
     x, y, z = (_extent(axis, used) for axis in scene.coordinates.T)
+    highest, deepest = _extent(below, used)
     diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
     with np.errstate(invalid="ignore", over="ignore"):
         distances = (scene.coordinates[used, axis] - level for axis, level in ((0, 0.0), (2, 0.0), (2, z[0])))
         flat = tuple(int(np.count_nonzero(np.abs(each) <= diameter)) for each in distances)
-    level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
-    return _LineExtent(used, x, y, z, (-deepest, -highest), diameter, scene.surroundings.depth, flat, level)
+    level = int((below[used] >= deepest - ROUNDED * diameter).sum())
+    extent = LineExtent(x, y, z, scene.surroundings.depth)
+    return _Line(used, extent, (-deepest, -highest), diameter, flat, level)
 
 
 def _extent(values: Floats, used: Mask) -> tuple[float, float]:
@@ -174,15 +170,15 @@ def _extent(values: Floats, used: Mask) -> tuple[float, float]:
     return float(values.min(where=used, initial=np.inf)), float(values.max(where=used, initial=-np.inf))
 
 
-def _above(line: _LineExtent) -> str:
+def _above(line: _Line) -> str:
     """Return the fault of a line that hangs above the seabed in words, or ""."""
-    lowest, highest = line.heights
-    if lowest > line.depth > 0.0:
+    (lowest, highest), (_, y, z, depth) = line.heights, line.extent
+    if lowest > depth > 0.0:
         return (
-            f"the lowest {{node}} lies {lowest:.5g} above the seabed, in water {line.depth:.5g} deep: correct the "
+            f"the lowest {{node}} lies {lowest:.5g} above the seabed, in water {depth:.5g} deep: correct the "
             "datum of X, which is 0 at the mudline"
         )
-    length = math.hypot(line.y[1] - line.y[0], line.z[1] - line.z[0])
+    length = math.hypot(y[1] - y[0], z[1] - z[0])
     level = highest - lowest < LEVEL * length
     if (level or line.level > LAID) and lowest > HIGHEST * line.diameter:
         what = "the line lies level, its lowest {node}" if level else "the lowest nodes lie level, {node}"
@@ -191,29 +187,26 @@ def _above(line: _LineExtent) -> str:
     return ""
 
 
-def _along_z(line: _LineExtent) -> str:
+def _along_z(line: _Line) -> str:
     """Return the fault of a line whose last coordinate is its height in words, or ""."""
-    near = NEAR * line.depth
-    first, last = line.z
-    upright = abs(last - first - line.depth) <= near and (abs(first) <= near or abs(last) <= near)
+    x, _, (first, last), depth = line.extent
+    near = NEAR * depth
+    if not depth > 0.0:
+        return ""
     turned = abs(first) <= near and line.flat[0] <= 1 and line.flat[1] >= LAID
-    if line.depth > 0.0 and upright and turned and line.x[1] - line.x[0] > FLAT * line.depth:
+    if turned and x[1] - x[0] > FLAT * depth and line.extent.spans_depth_in_z():
         return (
             f"Z goes from {first:.5g} to {last:.5g}, and {line.flat[1]} nodes lie within a diameter of 0 in Z and "
             f"{line.flat[0]} in X, as if Z were the height: write the height as X, the first coordinate"
         )
-    sunk = abs(first + line.depth) <= FLAT * line.depth and last > first + near
-    if line.depth > 0.0 and sunk and line.flat[0] <= 1 and line.flat[2] >= LAID:
+    sunk = abs(first + depth) <= FLAT * depth and last > first + near
+    if sunk and line.flat[0] <= 1 and line.flat[2] >= LAID:
         return (
             f"{line.flat[2]} nodes lie at Z = {first:.5g}, minus the water depth, and {line.flat[0]} near X = 0, as if "
             "Z were the height above the sea surface: write the height above the mudline as X, the first coordinate"
         )
-    if line.depth > 0.0 and line.x[1] - line.x[0] <= FLAT * line.depth and upright:
-        return (
-            f"X is the same at all nodes and Z goes from {first:.5g} to {last:.5g}, as if it were the height: write "
-            "the height as X, the first coordinate"
-        )
-    return ""
+    sign = line.extent.height_along_z()
+    return f"{sign}, as if it were the height: write the height as X, the first coordinate" if sign else ""
 
 
 # ----------------------------------------------------------------------------------------------------------------- laws
@@ -290,7 +283,7 @@ def _inner_pipes(scene: Scene, free: Mask) -> Mask:
 def in_another_pipe(scene: Scene) -> Mask:
     """Return a mask (m,) of the elements of the inner pipes that `*PIP SECTION` names."""
     inside = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    for _, pipe in records_of(scene.deck.blocks("PIP SECTION"), "pipes"):
+    for _, pipe in scene.context.records("PIP SECTION", "pipes"):
         if set_ := scene.set_table.find(pipe.inner or ""):
             inside[set_.elements] = True
     return inside

@@ -9,7 +9,7 @@ from functools import lru_cache
 from itertools import chain, takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
-from mudline.checks.context import Found, Joined, LintContext, joint, records_of
+from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.rules.load_cases import TIM003, TIM004, WAV002
 from mudline.checks.rules.seabed_position import UNT006
 from mudline.language.codes.fields import SYN003
@@ -210,7 +210,7 @@ def row_of_another_option(context: LintContext, found: Found) -> Iterator[Joined
     for problem in chain.from_iterable(found.values()) if text else ():
         lines.setdefault(text.place(problem).line if text else 0, []).append(problem)
     runs: list[tuple[str, list[Problem]]] = []
-    for where, entry in records_of(context.blocks("GEOMETRIC SETS")):
+    for where, entry in context.records("GEOMETRIC SETS"):
         own = format_of(entry)
         others = _other_formats(entry, own)
         span = text.span(where.inside(own)) if text and others else None

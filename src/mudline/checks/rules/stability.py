@@ -305,8 +305,7 @@ def _steepest(scene: Scene) -> Floats:
 
 
 def _curve_slope(scene: Scene, index: int) -> float:
+    from mudline.model.contact.laws.linear import steepest_slopes  # noqa: PLC0415 - most decks do without
+
     curve = scene.laws.curves[index].curve if index >= 0 else None
-    if curve is None:
-        return float("nan")
-    ratios = scene.laws.curves[index].points[:, 0]
-    return float(curve.evaluate(np.append(ratios[ratios > 0.0], 0.0))[1].max())
+    return math.nan if curve is None else float(steepest_slopes(curve)[-1])

@@ -104,6 +104,10 @@ class Context:
         """Return `Deck.blocks` of the evaluated deck, found once for all callers."""
         return self.placed.get((section, keyword), ())
 
+    def records(self, keyword: str, name: str = "sets", section: str = "MODEL") -> list[tuple[Where, Any]]:
+        """Return `records_of` the same blocks."""
+        return records_of(self.blocks(keyword, section), name)
+
     @cached_property
     def placed(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
         """Blocks of every section and keyword."""
@@ -397,3 +401,12 @@ def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
         if type(block) is not Opaque:  # isinstance of a model takes several times as long
             blocks.setdefault((section, block.keyword), []).append((where, block))
     return blocks
+
+
+def records_of(blocks: Iterable[tuple[Where, Any]], name: str = "sets") -> list[tuple[Where, Any]]:
+    """Return every record in a list of some blocks, by default what stands below a SET=, with its place."""
+    return [
+        (where._replace(path=(name, index)), record)
+        for where, block in blocks
+        for index, record in enumerate(getattr(block, name) or ())
+    ]

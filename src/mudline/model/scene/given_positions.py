@@ -16,11 +16,8 @@ from mudline.model.contact.input import ContactInput
 from mudline.model.scene.mesh import distances
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.seabed import FLAT, NEAR, LineExtent
 
-FLAT = 0.01
-"""Share of the water depth by which the X of nodes may differ in a line that is upright along Z."""
-NEAR = 0.05
-"""Share of the water depth within which a riser ends at the seabed or the sea surface."""
 DEEPEST = 5.0
 """Depth in diameters below 0 at which Z may still be the height of a pipe that lies on the seabed."""
 LEVEL = 0.005
@@ -58,18 +55,17 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     used = places[ends.ravel()]
     if not used.size or not np.isfinite(used).all():
         return ""
-    (low_x, _, low_z), (high_x, _, high_z) = used.min(axis=0), used.max(axis=0)
     depth = scene.surroundings.depth
-    rise = high_z - low_z
-    near = NEAR * depth
-    if abs(rise - depth) <= near and min(abs(low_z), abs(high_z)) <= near and high_x - low_x <= FLAT * depth:
-        return f"X is the same at all nodes and Z goes from {low_z:.5g} to {high_z:.5g}"
+    x, y, z = zip(used.min(axis=0).tolist(), used.max(axis=0).tolist(), strict=True)
+    if sign := LineExtent(x, y, z, depth).height_along_z():
+        return sign
+    (low_x, high_x), (low_z, high_z) = x, z
     first, second = places[ends[:, 0]], places[ends[:, 1]]
     run = np.abs(second - first)
     along_x = (run[:, 0] > 0.0) & (run[:, 2] <= LEVEL * run[:, 0]) & (run[:, 1] <= run[:, 0])
     middle = 0.5 * first[:, 2] + 0.5 * second[:, 2]
     sunk = along_x & (abs(middle + depth) <= FLAT * depth)
-    if sunk.sum() > 1 and high_z > low_z + near:
+    if sunk.sum() > 1 and high_z > low_z + NEAR * depth:
         return f"{int(sunk.sum())} elements run along X at minus the water depth in Z"
     limit = DEEPEST * np.nan_to_num(scene.diameter[elements])
     lies = along_x & (middle <= 0.0) & (middle >= -limit)

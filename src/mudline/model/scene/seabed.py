@@ -41,6 +41,10 @@ _SAMPLES: number of places.
 _PLANE: distance from one plane, over the line's length, up to which the seabed is plane.
 """
 _PARTS = re.compile(r"[\s,]+")
+FLAT = 0.01
+"""Share of the water depth by which the X of nodes may differ in a line that is upright along Z."""
+NEAR = 0.05
+"""Share of the water depth within which a riser ends at the seabed or the sea surface."""
 
 
 class SeabedKind(Enum):
@@ -90,6 +94,26 @@ class SeabedShape(NamedTuple):
 
     def __repr__(self) -> str:
         return short_repr(self)
+
+
+class LineExtent(NamedTuple):
+    """Smallest and largest coordinates of the nodes of a line, and the depth of the water; NaN where not known."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    z: tuple[float, float]
+    depth: float
+
+    def spans_depth_in_z(self) -> bool:
+        """Return True if Z goes from 0 to the depth, or from the depth below 0 to 0, as the height of a riser does."""
+        near, (low, high) = NEAR * self.depth, self.z
+        return abs(high - low - self.depth) <= near and min(abs(low), abs(high)) <= near
+
+    def height_along_z(self) -> str:
+        """Return in words that Z spans the depth of the water and X is the same, as if Z were the height; else ""."""
+        if not self.spans_depth_in_z() or not self.x[1] - self.x[0] <= FLAT * self.depth:
+            return ""
+        return f"X is the same at all nodes and Z goes from {self.z[0]:.5g} to {self.z[1]:.5g}"
 
 
 def read_seabed(context: Context) -> SeabedShape:

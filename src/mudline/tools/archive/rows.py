@@ -15,9 +15,8 @@ from typing import Annotated, Any, NamedTuple, get_args, get_type_hints
 import numpy as np
 
 from mudline.checks.context import LintContext
-from mudline.checks.engine import LintSettings, lint_context
+from mudline.checks.engine import LintSettings, all_findings, errors_of, lint_context
 from mudline.checks.fixing import with_severities
-from mudline.checks.verdict import all_findings, errors_of
 from mudline.language.deck.keyword_text import meaning
 from mudline.language.deck.loading import coverage_of, extent, load_bytes
 from mudline.language.deck.model import Deck, Opaque

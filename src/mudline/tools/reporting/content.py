@@ -259,7 +259,7 @@ def _scene(deck: Deck | None) -> tuple[Scene | None, str]:
     try:
         return resolve(deck).require(), ""
     except DeckError as error:
-        return None, _reason(DeckError(named_causes(deck, error.diagnostics, rules())))
+        return None, _reason(DeckError(named_causes(deck, error.diagnostics)))
 
 
 def _reason(error: DeckError) -> str:
@@ -293,10 +293,10 @@ def _hidden(context: LintContext, settings: LintSettings) -> list[dict[str, Any]
     if comments is None:
         return []
     rows = []
-    for problem in comments.split(joined_problems(context, settings.rules, suppress=False), ())[1]:
-        comment = comments.hiding(problem)
-        (finding,) = context.deck.diagnose([problem])
-        rows.append(_finding(finding, context) | {"reason": "" if comment is None else comment.reason})
+    for problem in joined_problems(context, settings.rules, suppress=False):
+        if comment := comments.hiding(problem):
+            (finding,) = context.deck.diagnose([problem])
+            rows.append(_finding(finding, context) | {"reason": comment.reason})
     return rows
 
 

@@ -26,10 +26,7 @@ from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.sections import format_of
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.curvilinear import CurvilinearNodes
-    from mudline.language.keywords.library.geometric_sets import GeometricSets
     from mudline.language.keywords.library.seabed_properties import ElasticSurface
-    from mudline.language.keywords.library.tapered_joints import TaperedJoints
     from mudline.language.keywords.model import Part
     from mudline.model.scene.resolved import ResolvedDeck
 
@@ -138,14 +135,12 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 12:27
     """
     walls: list[tuple[Where, Part | None, tuple[tuple[str, str, str], ...]]] = [
-        (where.inside("sets", index, format_of(entry)), entry.section, (("Di", "do", "di"),))
-        for where, block in scene.context.blocks("GEOMETRIC SETS")
-        for index, entry in enumerate(cast("GeometricSets", block).sets)
+        (where.inside(format_of(entry)), entry.section, (("Di", "do", "di"),))
+        for where, entry in scene.context.records("GEOMETRIC SETS")
     ]
-    for where, block in scene.context.blocks("TAPER"):
-        for index, joint in enumerate(cast("TaperedJoints", block).sets):
-            bore = ("Doe", "do_end", "di") if joint.section.di_end is None else ("Die", "do_end", "di_end")
-            walls.append((where.inside("sets", index, "section"), joint.section, (("Dis", "do", "di"), bore)))
+    for where, joint in scene.context.records("TAPER"):
+        bore = ("Doe", "do_end", "di") if joint.section.di_end is None else ("Die", "do_end", "di_end")
+        walls.append((where.inside("section"), joint.section, (("Dis", "do", "di"), bore)))
     for where, row, ends in walls:
         for key, outside, inside in ends:
             outer, inner = getattr(row, outside, None), getattr(row, inside, None)
@@ -281,21 +276,19 @@ def undefined_name(scene: ResolvedDeck) -> Iterator[Problem]:
 def _cables(scene: ResolvedDeck) -> Iterator[Problem]:
     """Yield undefined cables, which have numbers, that nodes lie on."""
     blocks = scene.context.blocks("CABLE")
-    cables = {cable.cable for _, block in blocks for cable in block.cables}
+    cables = {cable.cable for _, cable in scene.context.records("CABLE", "cables")}
     doubt = any(not is_read(block) or scene.deck.lost(where) for where, block in blocks) or scene.context.restart
-    for where, block in scene.context.blocks("NODE,CURVILINEAR"):
-        for index, entry in enumerate(cast("CurvilinearNodes", block).entries):
-            place = where.inside("entries", index)
-            if hasattr(entry, "nodes"):
-                rows = enumerate(entry.nodes.column(1).tolist())
-                used = [(cable, place.inside("nodes", row, 1)) for row, cable in rows]
-            else:
-                used = [(entry.cable, place.inside("cable"))]
-            for cable, at in used:
-                if isinstance(cable, int | float) and math.isfinite(cable) and cable not in cables:
-                    message = f"cable {cable:g} is not defined: define it in *CABLE, or correct the number"
-                    severity = Severity.WARNING if doubt else None
-                    yield Problem(REF019, message, None, severity, at, blocks=Blocks.NEVER, lacks=f"{cable:g}")
+    for place, entry in scene.context.records("NODE,CURVILINEAR", "entries"):
+        if hasattr(entry, "nodes"):
+            rows = enumerate(entry.nodes.column(1).tolist())
+            used = [(cable, place.inside("nodes", row, 1)) for row, cable in rows]
+        else:
+            used = [(entry.cable, place.inside("cable"))]
+        for cable, at in used:
+            if isinstance(cable, int | float) and math.isfinite(cable) and cable not in cables:
+                message = f"cable {cable:g} is not defined: define it in *CABLE, or correct the number"
+                severity = Severity.WARNING if doubt else None
+                yield Problem(REF019, message, None, severity, at, blocks=Blocks.NEVER, lacks=f"{cable:g}")
 
 
 @rule(REF002, blocks=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -13,13 +13,13 @@ from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.source import BINARY
+from mudline.model.scene.context import records_of
 from mudline.model.scene.deck_values import file_name, missing_files, number
 from mudline.model.scene.laws import typed_blocks
 from mudline.model.scene.seabed import COMPILED, SeabedKind, SeabedShape, made_seabed
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_curves import Embedment
-    from mudline.language.keywords.library.seabed_surface import SeabedPlanes, SeabedProfile
+    from mudline.language.keywords.library.seabed_surface import Plane, SeabedProfile
     from mudline.model.scene.curves import SceneCurve
     from mudline.model.scene.resolved import ResolvedDeck
 
@@ -53,10 +53,10 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types and not extends_rigid(scene) else ()
     for where, properties, type_ in blocks:
-        for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
+        for place, entry in records_of([(where, properties)]) if type_ == "RIGID" else ():
             suction = entry.suction and entry.suction.stiffness
             for name, value in (("stiffness", entry.stiffness), ("lateral", entry.lateral), ("suction", suction)):
-                inner = where.inside("sets", index, name)
+                inner = place.inside(name)
                 if isinstance(value, str):
                     message = f"curve {shown(value)} on a rigid seabed: a force-embedment curve needs TYPE=ELASTIC"
                     yield Problem(SBD001, message, where=inner)
@@ -112,17 +112,16 @@ def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
             reported = True
             message = "the type is missing: write TYPE=RIGID or TYPE=ELASTIC as the first line"
             yield Problem(SBD003, message, where=where)
-        for index, entry in enumerate(properties.sets[:1]):
-            yield from _without_set(entry.set_name, where.inside("sets", index), "lines")
-    for where, block in scene.context.blocks("EMBEDMENT"):
-        for index, curve in enumerate(cast("Embedment", block).curves[:1]):
-            yield from _without_set(curve.set_name, where.inside("curves", index), "points")
+        yield from _without_set(records_of([(where, properties)]), "lines")
+    for block in scene.context.blocks("EMBEDMENT"):
+        yield from _without_set(records_of([block], "curves"), "points")
 
 
-def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]:
-    if name is None:
-        message = f"{what} before any SET= are read as those of SET=ALL (inferred): write SET= before them"
-        yield Problem(SBD003, message, None, Severity.WARNING, where)
+def _without_set(records: list[tuple[Where, Any]], what: str) -> Iterator[Problem]:
+    for where, record in records[:1]:
+        if record.set_name is None:
+            message = f"{what} before any SET= are read as those of SET=ALL (inferred): write SET= before them"
+            yield Problem(SBD003, message, None, Severity.WARNING, where)
 
 
 @rule(SBD005, blocks=True)
@@ -272,15 +271,20 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 8:8
     """
     for where, block in (*scene.context.surfaces, *scene.context.blocks("SEABED PROFILE")):
-        slope, place = number(block, "slope"), where.inside("slope")
-        if abs(slope) >= _VERTICAL:
-            message = f"slope {slope!r}: it must be between -90 and 90 degrees"
-            yield Problem(SBD012, message, where=place)
-        elif abs(slope) > _STEEP:
+        yield from _vertical(SBD012, block, where)
+        slope = number(block, "slope")
+        if _STEEP < abs(slope) < _VERTICAL:
             message = f"slope {slope!r} is over 45 degrees, steeper than soil can stand: correct it"
-            yield Problem(SBD012, message, None, Severity.WARNING, place)
+            yield Problem(SBD012, message, None, Severity.WARNING, where.inside("slope"))
     if scene.seabed.points.size:
         yield from _exchanged_columns(scene.seabed)
+
+
+def _vertical(code: Code, part: object, where: Where) -> Iterator[Problem]:
+    """Yield a problem of a part whose slope is vertical or overhangs."""
+    slope = number(part, "slope")
+    if abs(slope) >= _VERTICAL:
+        yield Problem(code, f"slope {slope!r}: it must be between -90 and 90 degrees", where=where.inside("slope"))
 
 
 def _exchanged_columns(floor: SeabedShape) -> Iterator[Problem]:
@@ -385,47 +389,32 @@ def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 10:2
     """
-    faults = list(_faulty_planes(scene))
+    written = scene.context.records("SEABED PLANES", "planes")
+    faults = [fault for place, plane in written for fault in _faults_of_plane(plane, place)]
     yield from faults
     planes = scene.seabed.planes
     numbers = (value for plane in planes for value in (*plane.point, plane.slope, plane.direction, *plane.bounds))
     readable = not any(map(math.isnan, numbers))  # other faults of numbers are reported already
     if scene.seabed.kind is SeabedKind.PLANES and not faults and readable and (fault := _fault(scene)):
         yield Problem(EXT007, f"{fault}: correct it", where=scene.seabed.where)
-    yield from _repeated(scene)
-
-
-def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
-    for where, block in scene.context.blocks("SEABED PLANES"):
-        for index, plane in enumerate(cast("SeabedPlanes", block).planes):
-            place = where.inside("planes", index)
-            lacking = [key for key in ("POINT", "SLOPE") if getattr(plane, key.lower()) is None]
-            if lacking:
-                names = " and ".join(f"{key}=" for key in lacking)
-                yield Problem(EXT007, f"this plane lacks {names}: write it", where=place)
-            slope = number(plane, "slope")
-            if abs(slope) >= _VERTICAL:
-                message = f"slope {slope!r}: it must be between -90 and 90 degrees"
-                yield Problem(EXT007, message, where=place.inside("slope"))
-            if any(number(plane.bounds, f"{axis}_min") >= number(plane.bounds, f"{axis}_max") for axis in "yz"):
-                message = (
-                    "invalid bounds: the second value must be larger than the first, the fourth larger than the third"
-                )
-                yield Problem(EXT007, message, where=place.inside("bounds"))
-
-
-def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
-    """Yield planes of the deck itself with the name of an earlier plane."""
     known: set[str] = set()
-    for where, block in scene.context.blocks("SEABED PLANES"):
-        if where.section >= len(scene.deck.own_sections):
-            continue
-        for index, plane in enumerate(cast("SeabedPlanes", block).planes):
-            name = folded(cast("str | None", plane.name) or "")
-            if name and name in known:
-                message = f"plane {shown(plane.name)} is already defined: choose another name, or remove one of the two"
-                yield Problem(EXT007, message, None, Severity.WARNING, where.inside("planes", index, "name"))
-            known.add(name)
+    for where, plane in written:
+        name = folded(plane.name or "") if where.section < len(scene.deck.own_sections) else ""
+        if name and name in known:
+            message = f"plane {shown(plane.name)} is already defined: choose another name, or remove one of the two"
+            yield Problem(EXT007, message, None, Severity.WARNING, where.inside("name"))
+        known.add(name)
+
+
+def _faults_of_plane(plane: Plane, where: Where) -> Iterator[Problem]:
+    lacking = [key for key in ("POINT", "SLOPE") if getattr(plane, key.lower()) is None]
+    if lacking:
+        names = " and ".join(f"{key}=" for key in lacking)
+        yield Problem(EXT007, f"this plane lacks {names}: write it", where=where)
+    yield from _vertical(EXT007, plane, where)
+    if any(number(plane.bounds, f"{axis}_min") >= number(plane.bounds, f"{axis}_max") for axis in "yz"):
+        message = "invalid bounds: the second value must be larger than the first, the fourth larger than the third"
+        yield Problem(EXT007, message, where=where.inside("bounds"))
 
 
 def _fault(scene: ResolvedDeck) -> str:
