@@ -53,7 +53,8 @@ class SuctionState(IntEnum):
     """Broken out, and still at least as high as at breakout."""
 
 
-COMPRESSION, SUCTION, HOLD, BROKEN = 1, 2, 3, 4
+COMPRESSION, SUCTION, HOLD, BROKEN = map(int, list(SuctionState)[1:])
+"""The states as numbers of compiled loops."""
 
 
 def maximum_force(v: Value, factor: Value, exponent: Value, regularisation: Value) -> tuple[Value, Value]:
