@@ -26,6 +26,7 @@ class Lines(NamedTuple):
         node_arc: (n,) arc length of each node on its line; NaN for a node without elements.
         elements: for each line its elements (k,) along the line.
         nodes: for each line its nodes (k + 1,) along the line; the last node of a closed line is its first.
+        arcs: for each line the arc lengths (k + 1,) of these nodes; infinite from where they overflow.
     """
 
     of_element: IndexArray
@@ -34,37 +35,31 @@ class Lines(NamedTuple):
     node_arc: FloatArray
     elements: list[IndexArray]
     nodes: list[IndexArray]
+    arcs: list[FloatArray]
 
     def __repr__(self) -> str:
         return short_repr(self)
-
-    def node_arcs(self, line: int, length: FloatArray) -> FloatArray:
-        """Return arc lengths (k + 1,) of the nodes along a line, from all elements' lengths (m,); inf on overflow."""
-        with np.errstate(over="ignore"):
-            arcs: FloatArray = np.append(0.0, np.cumsum(length[self.elements[line]]))
-        return arcs
 
 
 def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines:
     """Return the lines that elements (m, 2) with lengths (m,) form among `nodes` nodes."""
     ends = np.ascontiguousarray(element_nodes, np.intp)
     elements = len(ends)
-    parts = _followed(ends, nodes)
+    along_lines, through_lines = _followed(ends, nodes)
     of_element, of_node = np.zeros(elements, np.intp), np.full(nodes, -1, np.intp)
     element_arc, node_arc = np.zeros(elements), np.full(nodes, np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
-        for number in range(len(parts) - 1, -1, -1):  # a junction keeps the first of its lines
-            along, through = parts[number]
-            arc = np.append(0.0, np.cumsum(length[along]))
+        arcs = [np.append(0.0, np.cumsum(length[along])) for along in along_lines]
+        for number in range(len(arcs) - 1, -1, -1):  # a junction keeps the first of its lines
+            along, through, arc = along_lines[number], through_lines[number], arcs[number]
             of_element[along], element_arc[along] = number, 0.5 * (arc[:-1] + arc[1:])
-            closed = through[0] == through[-1]
             of_node[through], node_arc[through] = number, arc
-            if closed:
+            if through[0] == through[-1]:
                 node_arc[through[0]] = 0.0
-    return Lines(of_element, of_node, element_arc, node_arc, [each for each, _ in parts], [each for _, each in parts])
+    return Lines(of_element, of_node, element_arc, node_arc, along_lines, through_lines, arcs)
 
 
-def _followed(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]]:
+def _followed(ends: IndexArray, nodes: int) -> tuple[list[IndexArray], list[IndexArray]]:
     """Return elements and nodes of each line, found by going from element to element."""
     numbers, places = np.arange(len(ends)), ends.ravel()
     inside = np.bincount(places, minlength=nodes) == 2
@@ -87,7 +82,7 @@ def _followed(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray
         return along, through
 
     left, element = bytearray(b"\1") * len(ends), -1
-    lines = []
+    along_lines, through_lines = [], []
     while (element := left.find(1, element + 1)) >= 0:
         back, through = follow(element, seconds[element])
         first, start = back[-1], through[-1]
@@ -96,8 +91,9 @@ def _followed(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray
         along, through = follow(first, start)
         for each in along:
             left[each] = 0
-        lines.append((np.array(along, np.intp), np.array([start, *through], np.intp)))
-    return lines
+        along_lines.append(np.array(along, np.intp))
+        through_lines.append(np.array([start, *through], np.intp))
+    return along_lines, through_lines
 
 
 class TouchdownPoint(NamedTuple):
