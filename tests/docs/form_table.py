@@ -9,6 +9,8 @@ from pathlib import Path
 
 from mudline.basics.quantities import ELEMENTS, LINES, NODES, Quantity
 from mudline.checks.output import TEXT, TEXT_SUMMARY, form_module, form_names
+from mudline.model.contact.columns import CUT
+from mudline.model.contact.input import LawKind
 from mudline.model.results.cases import CASES
 from mudline.model.results.forms import FORMS
 from mudline.tools.archive.rows import TABLES, columns_of
@@ -48,6 +50,29 @@ def quantity_rows(quantities: Iterable[Quantity]) -> str:
 
 def _unit(quantity: Quantity) -> str:
     return f" {quantity.unit_name('metric')} / {quantity.unit_name('imperial')} " if quantity.unit else " "
+
+
+def law_names() -> list[str]:
+    """The names of laws in the results of decks, but for the curves."""
+    return [CUT, *(kind.name.lower() for kind in LawKind if kind not in {LawKind.CURVE, LawKind.OTHER})]
+
+
+def pages_with_laws() -> dict[str, str]:
+    """The page and the schema that list the laws of elements in results."""
+    names = law_names()
+    listed = f"{', '.join(f'`{name}`' for name in ('curve:NAME', *names[:-1]))} or `{names[-1]}`"
+    lists = {
+        "docs/numerics.md": (r"(?<=\nIn the results the law of an element is ).*(?=\.\n)", listed),
+        "docs/schemas/evaluate.json": (
+            r'(?<="law": {"type": "string", "pattern": ").*(?="})',
+            f"^(curve:.*|{'|'.join(names)})$",
+        ),
+    }
+    texts = {}
+    for path, (place, words) in lists.items():
+        texts[path], found = re.subn(place, words, (_ROOT / path).read_text(encoding="utf-8"))
+        assert found == 1
+    return texts
 
 
 def archive_columns() -> dict[str, str]:

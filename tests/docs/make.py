@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 
 from mudline.checks.registry import rules
 from tests.docs.commands import output
-from tests.docs.form_table import pages_with_tables
+from tests.docs.form_table import pages_with_laws, pages_with_tables
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_pages
 from tests.docs.law_page import law_page
@@ -39,7 +39,7 @@ def pages() -> Mapping[str, str]:
     indexes = {"docs/keywords.md": keyword_index(), "docs/rules/README.md": rule_index(rules())}
     of_rules = {f"docs/rules/{rule.code.code}.md": rule_page(rule) for rule in rules()}
     single = {"docs/laws.md": law_page(), "docs/limits.md": limits_page(), "docs/architecture.svg": layer_picture()}
-    return indexes | keyword_pages() | of_rules | single | pages_with_tables()
+    return indexes | keyword_pages() | of_rules | single | pages_with_tables() | pages_with_laws()
 
 
 def made_files() -> set[str]:

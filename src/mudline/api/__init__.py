@@ -187,7 +187,7 @@ class Scene:
 
     @property
     def law_names(self) -> tuple[str, ...]:
-        """`curve:NAME`, `linear`, `nodal`, `rigid` or `none` for each element."""
+        """`curve:NAME`, or the name of another `LawKind` in lower case, for each element."""
         return self._names[0]
 
     @property

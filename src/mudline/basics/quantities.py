@@ -127,7 +127,7 @@ ELEMENTS = _by_name(
     ),
     Quantity("slope", "d force / d ratio, or `null`", "line_force"),
     Quantity("stiffness", "d force / d depth, per unit length", "stiffness", label="seabed stiffness\nper unit length"),
-    Quantity("law", "`curve:NAME`, `curve-cut`, `linear`, `nodal`, `rigid` or `none`"),
+    Quantity("law", "`curve:NAME`, `curve-cut`, or the name of [another law](numerics.md#which-law-an-element-has)"),
     Quantity(
         "state",
         "of suction: `free`, `compression`, `suction`, `hold` or `broken`; `null` without a suction law",

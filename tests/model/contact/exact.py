@@ -98,6 +98,13 @@ class ExactSmoothed:
 
 
 ExactLaw = ExactLinear | ExactCurve | ExactSmoothed
+EXACT: dict[str, type[ExactLaw]] = {
+    "linear": ExactLinear,
+    "smoothed": ExactSmoothed,
+    "nodal": ExactSmoothed,
+    "curve": ExactCurve,
+}
+"""The laws that are computed here, by name."""
 
 
 @dataclass(slots=True)

@@ -9,7 +9,7 @@ import pytest
 
 from mudline.basics.short_repr import UnknownNameError
 from mudline.model.contact import ContactModel, LawKind
-from mudline.model.contact.laws import known_laws
+from mudline.model.contact.laws import BUILT_IN, known_laws
 from tests.helpers.builders.contact import (
     CURVE,
     LINEAR,
@@ -23,6 +23,7 @@ from tests.helpers.builders.contact import (
     on,
     trench,
 )
+from tests.model.contact.random_scenes import LAWS
 
 STAGES = "seabed surface,normal law,smoothing,unloading,suction,friction,lateral,trench,assembly"
 
@@ -88,6 +89,10 @@ OF_THEIR_OWN = {"hyperbolic", "breakout", "damping", "nodal damping", "trench le
 
 def test_everything_has_every_law() -> None:
     assert set(everything(60, seed=1).assigned) == set(known_laws()) - OF_THEIR_OWN
+
+
+def test_random_scenes_draw_every_law() -> None:
+    assert sorted(LAWS) == sorted(BUILT_IN)
 
 
 def test_a_trench_without_friction_does_nothing_and_the_plan_says_so() -> None:

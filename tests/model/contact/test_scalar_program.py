@@ -17,14 +17,13 @@ from mudline.model.contact import ContactModel
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.contact.laws import BUILT_IN
 from tests.helpers.builders.contact import LINEAR, chain, friction, on, trench
+from tests.model.contact.exact import EXACT
 
 K, LENGTH = 5.0e4, 2.0
 STEPS = 400
 
 SECOND_OPINIONS = {
-    "exact": {
-        *("linear", "smoothed", "nodal", "curve", "rigid")
-    },  # tests/model/contact/exact.py, in rationals; rigid has no force
+    "exact": {*EXACT, "rigid"},  # which has no force
     "soil_program": {"soil"},
     "friction/test_breakout": {"breakout"},
     "trench/test_law": {

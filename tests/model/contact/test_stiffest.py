@@ -11,7 +11,9 @@ from hypothesis import strategies as st
 
 from mudline.model.contact import ContactInput, ContactModel
 from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.laws import BUILT_IN, PathLaw, is_normal
 from mudline.model.contact.stiffest import rounded_down
+from mudline.model.contact.tables import LawTables, steepest_anywhere
 from tests.helpers.builders.contact import (
     CURVE,
     LINEAR,
@@ -19,6 +21,7 @@ from tests.helpers.builders.contact import (
     at_depths,
     bridge_law,
     chain,
+    everything,
     floats,
     friction,
     heave,
@@ -35,6 +38,25 @@ def figures(inputs: ContactInput, law: str) -> tuple[FloatArray, FloatArray, str
     """Stiffness, damping and what they are for."""
     found = law_of(ContactModel(inputs).stiffest(), law)
     return found.stiffness, found.damping, found.per
+
+
+@pytest.mark.parametrize("name", [name for name in BUILT_IN if is_normal(name)])
+def test_no_stiffness_of_a_law_exceeds_its_steepest_one_which_it_reaches(name: str) -> None:
+    """At penetrations from the onset to one diameter, in `everything`; only on a path is a reversal still stiffer."""
+    tables = LawTables(everything(60, seed=1))
+    found = [rows for rows in (*tables.normal, *tables.nodal) if rows.law.name == name]
+    assert found
+    for rows in found:
+        diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
+        onset = np.zeros(len(rows.rows)) if rows.curve else np.asarray(rows.law.onset(*rows.columns))
+        z = onset + np.linspace(1e-6, 0.3, 3000)[:, None]
+        values = np.empty((3, *z.shape))
+        rows.write_reaction(z, diameter, values)
+        so_far, steepest = np.maximum.accumulate(values[2]), np.broadcast_to(rows.steepest(z, diameter), z.shape)
+        assert (so_far <= steepest * (1.0 + 1e-12)).all()
+        assert (steepest <= steepest_anywhere(tables, rows) * (1.0 + 1e-12)).all()
+        if not isinstance(rows.law, PathLaw):
+            np.testing.assert_allclose(so_far[-1], steepest[-1], rtol=1e-3)
 
 
 def test_normal_laws() -> None:

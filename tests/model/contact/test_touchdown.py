@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.basics.quantities import LINES
 from mudline.model.contact import ContactInput, ContactModel, LawAssignment
-from mudline.model.contact.lines import Lines, LineSummary, TouchdownPoint, _followed, _in_order, lines_of
+from mudline.model.contact.lines import Lines, LineSummary, TouchdownPoint, lines_of
 from mudline.model.contact.result import ResultPart
 from mudline.model.contact.touchdown import LineResults, line_summaries
 
@@ -178,7 +178,3 @@ def test_every_element_is_in_one_line_whose_elements_join(ends: list[tuple[int, 
             assert {int(begin), int(end)} == set(pairs[element].tolist())
         assert (degree[through[1:-1]] == 2).all()
         assert (degree[through[[0, -1]]] != 2).all() or through[0] == through[-1]
-    quick = _in_order(pairs, 10)
-    if quick is not None:
-        slow = _followed(pairs, 10)
-        assert [(one.tolist(), other.tolist()) for one, other in quick] == [(a.tolist(), b.tolist()) for a, b in slow]

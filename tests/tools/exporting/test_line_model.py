@@ -14,6 +14,7 @@ from mudline.model.scene.model import resolve
 from mudline.tools.exporting import moordyn, orcaflex
 from mudline.tools.exporting.line_model import build
 from mudline.tools.exporting.report import Outcome
+from mudline.tools.exporting.soil import report_stiffness
 from tests.tools.exporting.decks import BOTH, ELASTIC, EXPORTABLE, PIPE, WEIGHT, model_of, sample, text
 
 TARGETS = (moordyn, orcaflex)
@@ -131,6 +132,15 @@ def test_curves_of_stiffness_have_their_slope_at_0() -> None:
     assert touchdown.axial == pytest.approx(8.2e6 / 0.002)
     assert touchdown.torsion == pytest.approx(4.9e5 / 0.0201)
     assert {flowline.buoyancy, straked.buoyancy, touchdown.diameter} == {0.27305}
+
+
+def test_a_law_without_a_known_stiffness_is_left_out() -> None:
+    """No deck gives one: it is as of a kind that is new."""
+    model = model_of(text())
+    report_stiffness(model.report, [model.soil._replace(law="new", kind=LawKind.OTHER)], "kBot", [0.0])
+    (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PROPERTIES")
+    assert (entry.status, entry.target) == (Outcome.LEFT_OUT, "none")
+    assert entry.effect == "no stiffness is known of the law new"
 
 
 def test_a_curve_is_its_secant_where_it_carries_the_weight() -> None:

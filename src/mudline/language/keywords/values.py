@@ -160,7 +160,8 @@ class Facts:
         later_wins: True if an element follows the last record whose SET= contains it, and that record as a whole.
         carried: fields that a block takes over from the block before it unless it gives them.
         seabed_type: type of seabed of a legacy surface.
-        gives_law: kind of law that replaces that of the elements, and the field of a record that requests it.
+        gives_law: kind of law that replaces that of the elements, a name of `LawKind` in lower case, and the field of a
+            record that requests it.
         soil_springs: True if it holds elements in the soil.
         moves_vessels: True if vessels follow the waves or a time history because of it.
         gives: properties of elements and nodes that kept lines may define.
@@ -183,7 +184,7 @@ class Facts:
     later_wins: bool = False
     carried: tuple[str, ...] = ()
     seabed_type: Literal["", "RIGID", "ELASTIC"] = ""
-    gives_law: tuple[Literal["", "soil", "nodal"], str] = ("", "")
+    gives_law: tuple[str, str] = ("", "")
     soil_springs: bool = False
     moves_vessels: bool = False
     gives: tuple[Gift, ...] = ()

@@ -146,7 +146,7 @@ class InputNames(Protocol):
 
     @property
     def law_names(self) -> Sequence[str]:
-        """(m,) `curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none`."""
+        """(m,) `curve:NAME`, or the name of another `LawKind` in lower case."""
 
     @property
     def law_sets(self) -> Sequence[str | None]:
@@ -247,7 +247,7 @@ class ContactInput:
 
     @property
     def law_names(self) -> Sequence[str]:
-        """The name of each element's law (m,): `curve:NAME`, or that of its `LawKind`."""
+        """The name of each element's law (m,), see `InputNames`."""
         if self.names is not None:
             return self.names.law_names
         curves = [f"curve:{curve.name}" for curve in self.curves]

@@ -26,6 +26,7 @@ class Lines(NamedTuple):
         node_arc: (n,) arc length of each node on its line; NaN for a node without elements.
         elements: for each line its elements (k,) along the line.
         nodes: for each line its nodes (k + 1,) along the line; the last node of a closed line is its first.
+        arcs: for each line the arc lengths (k + 1,) of these nodes; infinite from where they overflow.
     """
 
     of_element: IndexArray
@@ -34,93 +35,65 @@ class Lines(NamedTuple):
     node_arc: FloatArray
     elements: list[IndexArray]
     nodes: list[IndexArray]
+    arcs: list[FloatArray]
 
     def __repr__(self) -> str:
         return short_repr(self)
-
-    def node_arcs(self, line: int, length: FloatArray) -> FloatArray:
-        """Return arc lengths (k + 1,) of the nodes along a line, from all elements' lengths (m,); inf on overflow."""
-        with np.errstate(over="ignore"):
-            arcs: FloatArray = np.append(0.0, np.cumsum(length[self.elements[line]]))
-        return arcs
 
 
 def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines:
     """Return the lines that elements (m, 2) with lengths (m,) form among `nodes` nodes."""
     ends = np.ascontiguousarray(element_nodes, np.intp)
     elements = len(ends)
-    parts = _in_order(ends, nodes) or _followed(ends, nodes)
+    along_lines, through_lines = _followed(ends, nodes)
     of_element, of_node = np.zeros(elements, np.intp), np.full(nodes, -1, np.intp)
     element_arc, node_arc = np.zeros(elements), np.full(nodes, np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
-        for number in range(len(parts) - 1, -1, -1):  # a junction keeps the first of its lines
-            along, through = parts[number]
-            arc = np.append(0.0, np.cumsum(length[along]))
+        arcs = [np.append(0.0, np.cumsum(length[along])) for along in along_lines]
+        for number in range(len(arcs) - 1, -1, -1):  # a junction keeps the first of its lines
+            along, through, arc = along_lines[number], through_lines[number], arcs[number]
             of_element[along], element_arc[along] = number, 0.5 * (arc[:-1] + arc[1:])
-            closed = through[0] == through[-1]
             of_node[through], node_arc[through] = number, arc
-            if closed:
+            if through[0] == through[-1]:
                 node_arc[through[0]] = 0.0
-    return Lines(of_element, of_node, element_arc, node_arc, [each for each, _ in parts], [each for _, each in parts])
+    return Lines(of_element, of_node, element_arc, node_arc, along_lines, through_lines, arcs)
 
 
-def _in_order(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]] | None:
-    """Return elements and nodes of each line if the elements of each are consecutive in the deck; else None."""
-    if not len(ends):
-        return []
-    first, second = ends.T
-    degree = np.bincount(ends.ravel(), minlength=nodes)
-    goes_on = (second[:-1] == first[1:]) & (degree[first[1:]] == 2)
-    starts = np.append(0, np.flatnonzero(~goes_on) + 1)
-    stops = np.append(starts[1:], len(ends))
-    closed = first[starts] == second[stops - 1]
-    ended = (degree[first[starts]] != 2) & (degree[second[stops - 1]] != 2)
-    if not (closed | ended).all():
-        return None
-    along = np.arange(len(ends))
-    return [
-        (along[start:stop], np.append(first[start:stop], second[stop - 1]))
-        for start, stop in zip(starts.tolist(), stops.tolist(), strict=True)
-    ]
-
-
-def _followed(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]]:
+def _followed(ends: IndexArray, nodes: int) -> tuple[list[IndexArray], list[IndexArray]]:
     """Return elements and nodes of each line, found by going from element to element."""
-    joined: list[list[int]] = [[] for _ in range(nodes)]
-    pairs: list[list[int]] = ends.tolist()
-    for element, (start, end) in enumerate(pairs):
-        joined[start].append(element)
-        joined[end].append(element)
+    numbers, places = np.arange(len(ends)), ends.ravel()
+    inside = np.bincount(places, minlength=nodes) == 2
+    beside = np.bincount(places, numbers.repeat(2), nodes)[ends] - numbers[:, None]
+    firsts, seconds = ends.T.tolist()
+    before, behind = np.where(inside[ends], beside, -1.0).astype(np.intp).T.tolist()
 
     def follow(element: int, node: int) -> tuple[list[int], list[int]]:
         """Return the elements from `element` on, leading away from its node `node`, and the node behind each."""
-        along, through = [element], []
-        while True:
-            start, end = pairs[along[-1]]
-            node = end if node == start else start
-            through.append(node)
-            beside = joined[node]
-            if len(beside) != 2:
-                return along, through
-            following = beside[1] if beside[0] == along[-1] else beside[0]
-            if following in {element, along[-1]}:
-                return along, through
+        along, through, following = [], [], element
+        while following >= 0:
             along.append(following)
+            if node == firsts[following]:
+                node, following = seconds[following], behind[following]
+            else:
+                node, following = firsts[following], before[following]
+            through.append(node)
+            if following == element:
+                break
+        return along, through
 
-    left = bytearray(b"\1") * len(pairs)
-    lines = []
-    for element, (first, second) in enumerate(pairs):
-        if not left[element]:
-            continue
-        back, behind = follow(element, second)
-        start = behind[-1]
-        closed = start == second and len(back) > 1 and len(joined[start]) == 2
-        along, through = follow(element, first) if closed else follow(back[-1], start)
-        nodes_along = [first if closed else start, *through]
+    left, element = bytearray(b"\1") * len(ends), -1
+    along_lines, through_lines = [], []
+    while (element := left.find(1, element + 1)) >= 0:
+        back, through = follow(element, seconds[element])
+        first, start = back[-1], through[-1]
+        if start == seconds[element] and len(back) > 1 and inside[start]:  # closed
+            first, start = element, firsts[element]
+        along, through = follow(first, start)
         for each in along:
             left[each] = 0
-        lines.append((np.array(along, np.intp), np.array(nodes_along, np.intp)))
-    return lines
+        along_lines.append(np.array(along, np.intp))
+        through_lines.append(np.array([start, *through], np.intp))
+    return along_lines, through_lines
 
 
 class TouchdownPoint(NamedTuple):

@@ -63,10 +63,10 @@ class NumpyDriver:
             np.zeros((self._components, steps, elements + 2)),
             np.zeros((lateral, steps, elements + 2)),
             np.zeros((steps, elements + 2)) if self._tables.embeds else np.empty((0, 0)),
+            None if self._tables.trench is None else self._tables.laid_line(batch.laid),
         )
         self._elements.run(batch, part, state, work)
-        laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
-        self._nodes.run(batch.speed, part, state, work, laid)
+        self._nodes.run(batch.speed, part, state, work)
 
 
 def _keep_freed_memory() -> None:
@@ -134,14 +134,7 @@ class NodeLaws:
         if tables.trench is not None:
             self._in_trench = as_range(tables.trench.nodes)
 
-    def run(
-        self,
-        speed: FloatArray | None,
-        part: ContactResult,
-        state: ContactState,
-        work: Work,
-        laid: LaidCentreline | None,
-    ) -> None:
+    def run(self, speed: FloatArray | None, part: ContactResult, state: ContactState, work: Work) -> None:
         """Write the nodes of a batch."""
         tables, reaction = self._tables, part.reaction
         total = tables.line.sums(work.load)
@@ -165,7 +158,7 @@ class NodeLaws:
             return
         direction = self._sums(work.tangent, directed=True)
         along = self._turned_axes(in_plane(direction, normal), normal)
-        sideward = self._tangential_reaction(part, state, work, (along, self._plane.across(along, normal)), laid)
+        sideward = self._tangential_reaction(part, state, work, along, self._plane.across(along, normal))
         for axis, component in enumerate(self._plane.reaction(total, normal, sideward)):
             reaction[..., axis] = component
 
@@ -185,19 +178,13 @@ class NodeLaws:
         return along
 
     def _tangential_reaction(
-        self,
-        part: ContactResult,
-        state: ContactState,
-        work: Work,
-        axes: tuple[Components, Components],
-        laid: LaidCentreline | None,
+        self, part: ContactResult, state: ContactState, work: Work, along: Components, across: Components
     ) -> Components:
         """Return components of the tangential reaction: friction and lateral springs."""
-        along, across = axes
         force: Components = tuple(np.zeros(along[0].shape) for _ in along)
         axial = sideways = np.zeros(along[0].shape)
         if state.friction is not None:
-            axial, sideways = self._friction_forces(part, state, work, axes, laid)
+            axial, sideways = self._friction_forces(part, state, work, along, across)
             force = self._plane.blend(along, across, axial, sideways)
         if len(work.lateral):
             push = self._sums(work.lateral, directed=False)
@@ -208,21 +195,15 @@ class NodeLaws:
         return force
 
     def _friction_forces(
-        self,
-        part: ContactResult,
-        state: ContactState,
-        work: Work,
-        axes: tuple[Components, Components],
-        laid: LaidCentreline | None,
+        self, part: ContactResult, state: ContactState, work: Work, along: Components, across: Components
     ) -> tuple[FloatArray, FloatArray]:
         """Return friction along u1 and u2 (steps, k); update the stick points from step to step."""
         history, law = cast("FrictionHistory", state.friction), cast("FrictionLaw", self._tables.friction)
-        along, across = axes
         plane, places, first = self._plane, work.planes, 3 - len(along)
         pressing = np.where(law.active, np.fmax(part.normal_force, 0.0), 0.0)
         closed = pressing > 0.0
         springs, limits = self._fixed + self._rising * pressing, self._coefficients * pressing
-        walls = None if laid is None else self._walls(places, across, pressing, laid)
+        walls = None if work.laid is None else self._walls(places, across, pressing, work.laid)
         stick = history.stick_points.T
         held = history.states[:, 0] > 0
         softening = self._softening(state, work)

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from mudline.model.contact.laws.suction import SuctionHistory
     from mudline.model.contact.laws.unloading import UnloadingHistory
     from mudline.model.contact.tables import StepBatch
+    from mudline.model.contact.trenches import LaidCentreline
 
 Values = tuple[FloatArray, FloatArray, FloatArray]
 """Force, slope and stiffness (steps, k)."""
@@ -43,6 +44,7 @@ class Work(NamedTuple):
             in its plane.
         lateral: components of the lateral force of each element on each of its nodes.
         ratio: z/D of each element; empty if no node needs it.
+        laid: the line as it was laid; None without trenches.
     """
 
     planes: FloatArray
@@ -50,6 +52,7 @@ class Work(NamedTuple):
     tangent: FloatArray
     lateral: FloatArray
     ratio: FloatArray
+    laid: LaidCentreline | None
 
 
 class _Subset(NamedTuple):

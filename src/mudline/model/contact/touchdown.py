@@ -79,7 +79,6 @@ class Touchdown:
     def __init__(self, given: ContactInput) -> None:
         self.given = given
         self.lines = given.lines
-        self._arcs = [self.lines.node_arcs(line, given.length) for line in range(len(self.lines.elements))]
         self._own_nodes = [np.flatnonzero(self.lines.of_node == line) for line in range(len(self.lines.elements))]
         self._carries, self._rigid = given.law != LawKind.NONE, given.law == LawKind.RIGID
         with np.errstate(over="ignore", invalid="ignore"):
@@ -88,7 +87,7 @@ class Touchdown:
 
     def length(self, line: int) -> float:
         """Length of a line; infinite where it overflows."""
-        return float(self._arcs[line][-1])
+        return float(self.lines.arcs[line][-1])
 
     def series(self, part: ResultPart) -> list[LineSeries]:
         """Return each line over some steps, without lines that have no evaluated element."""
@@ -102,7 +101,7 @@ class Touchdown:
 
     def _line(self, line: int, result: ContactResult) -> LineSeries:
         elements, nodes = self.lines.elements[line], self.lines.nodes[line]
-        gap, arc = result.gap[:, nodes], self._arcs[line]
+        gap, arc = result.gap[:, nodes], self.lines.arcs[line]
         touches = gap < 0.0
         if result.restrained is not None:
             touches |= result.restrained[:, nodes]

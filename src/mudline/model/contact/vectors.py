@@ -66,7 +66,7 @@ def span_scale(dx: Value, dy: Value, dz: Value) -> Value:
 
 def projected_2(vector: Vector, _normal: Vector) -> tuple[Vector, Value]:
     """Return the unit vector along a vector in the plane, and whether the vector has a length."""
-    square = vector[0] * vector[0] + vector[1] * vector[1]
+    square = dot_2(vector, vector)
     exists = square > _STEEPEST
     share = 1.0 / np.sqrt(where(exists, square, 1.0))
     return (vector[0] * share, vector[1] * share), exists
@@ -74,13 +74,12 @@ def projected_2(vector: Vector, _normal: Vector) -> tuple[Vector, Value]:
 
 def projected_3(vector: Vector, normal: Vector) -> tuple[Vector, Value]:
     """Return the unit vector along the projection of a vector on the plane of a normal, and whether it exists."""
-    along = vector[0] * normal[0] + vector[1] * normal[1] + vector[2] * normal[2]
-    rest_x, rest_y = vector[0] - normal[0] * along, vector[1] - normal[1] * along
-    rest_z = vector[2] - normal[2] * along
-    square = rest_x * rest_x + rest_y * rest_y + rest_z * rest_z
+    along = dot_3(vector, normal)
+    rest = vector[0] - normal[0] * along, vector[1] - normal[1] * along, vector[2] - normal[2] * along
+    square = dot_3(rest, rest)
     exists = square > _STEEPEST
     share = 1.0 / np.sqrt(where(exists, square, 1.0))
-    return (rest_x * share, rest_y * share, rest_z * share), exists
+    return (rest[0] * share, rest[1] * share, rest[2] * share), exists
 
 
 def default_2(normal: Vector) -> Vector:
@@ -108,12 +107,7 @@ def turned_2(cosine: Value, sine: Value, _normal: Vector) -> Vector:
 def turned_3(cosine: Value, sine: Value, normal: Vector) -> Vector:
     """Return u1 at an angle to the projection of +Y, about the normal."""
     along = default_3(normal)
-    across = across_3(along, normal)
-    return (
-        cosine * along[0] + sine * across[0],
-        cosine * along[1] + sine * across[1],
-        cosine * along[2] + sine * across[2],
-    )
+    return blend_3(along, across_3(along, normal), cosine, sine)
 
 
 def blend_2(a: Vector, b: Vector, f: Value, g: Value) -> Vector:

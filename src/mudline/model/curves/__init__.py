@@ -36,10 +36,6 @@ IndexArray = NDArray[np.intp]
 
 BLOCK = 32768
 """Numbers evaluated at a time, so that work arrays stay in the second-level cache."""
-_COUNTED_POINTS = 60
-"""Number of points up to which comparing with each point is faster than a binary search."""
-_RATIOS_PER_POINT = 50
-"""Number of ratios per point below which a binary search is faster."""
 _NORMAL = float(np.finfo(np.float64).tiny)
 
 
@@ -140,7 +136,7 @@ class ForceCurve:
     def _fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
         """Write force and slope at each ratio of a block; return True if every force is finite."""
         # a ratio below the second point, even below the first, belongs to the first segment
-        point = _passed(self.ratios[1:], ratio)
+        point = np.searchsorted(self.ratios[1:], ratio, side="right")
         offset = self.ratios.take(point)
         np.subtract(ratio, offset, out=offset)
         np.take(self._tails, point, out=slope, mode="clip")
@@ -155,7 +151,7 @@ class ForceCurve:
         Only an intermediate value may have overflowed: the force may be finite if added in two halves.
         """
         where = np.flatnonzero(~np.isfinite(force))
-        at = _passed(self.ratios[1:], ratio[where])
+        at = np.searchsorted(self.ratios[1:], ratio[where], side="right")
         half = self._tails[at] * (0.5 * ratio[where] - 0.5 * self.ratios[at])
         force[where] = self.forces[at] + half + half
         return where[~np.isfinite(force[where])]
@@ -167,9 +163,7 @@ class ForceCurve:
             ValueError: a ratio is NaN or infinite.
         """
         query = _finite_ratios(ratios)
-        segments = _passed(self.ratios[1:], query.reshape(-1))
-        np.minimum(segments, len(self.slopes) - 1, out=segments)
-        return segments.reshape(query.shape)
+        return np.asarray(np.searchsorted(self.ratios[1:-1], query, side="right"))
 
     def extrapolated(self, ratios: ArrayLike) -> NDArray[np.int8]:
         """Return -1 where `ratios` lie below the first point, 1 beyond the last, 0 between them and at them.
@@ -339,12 +333,8 @@ def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatA
     Raises:
         CurveError: CRV011, a width or a slope overflows, or a slope is not zero but too small to be a normal number.
     """
-    with np.errstate(all="ignore"):
+    with np.errstate(over="ignore"):
         widths = ratios[1:] - ratios[:-1]
-        plain = (forces[1:] - forces[:-1]) / widths
-    steepness = np.abs(plain)
-    if np.minimum.reduce(steepness) >= _NORMAL and np.maximum.reduce(steepness) < np.inf:
-        return plain  # the case of most curves
     slopes = _difference_quotient(forces[1:], forces[:-1], widths)
     subnormal = (forces[1:] != forces[:-1]) & (np.abs(slopes) < _NORMAL)
     usable = np.isfinite(widths) & np.isfinite(slopes) & ~subnormal
@@ -418,15 +408,3 @@ def _blocks(source: NDArray[np.generic], *targets: NDArray[np.generic]) -> np.nd
         casting="same_kind",
         buffersize=BLOCK,
     )
-
-
-def _passed(points: FloatArray, ratio: FloatArray) -> IndexArray:
-    """Return how many of the ascending points (n,) lie at or below each ratio (k,); any number up to n for NaN."""
-    if len(points) > _COUNTED_POINTS or len(ratio) < _RATIOS_PER_POINT * len(points):
-        return np.searchsorted(points, ratio, side="right")
-    count: NDArray[np.uint8] = (ratio >= points[0]).view(np.uint8)
-    more = np.empty(len(ratio), np.bool_)
-    for point in points[1:]:
-        np.greater_equal(ratio, point, out=more)
-        np.add(count, more.view(np.uint8), out=count)
-    return count.astype(np.intp)

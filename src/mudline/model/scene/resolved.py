@@ -313,7 +313,7 @@ class ResolvedDeck:
 
     @cached_property
     def law_names(self) -> list[str]:
-        """Law of each element: `curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none`."""
+        """Law of each element: `curve:NAME`, or the name of another `LawKind` in lower case."""
         names = np.array([*map(self.law_name, self.laws.set_laws), "none"], dtype=object)[self.laws.of_element]
         for kind, _, _, elements in self.replaced:
             names[elements] = kind.name.lower()

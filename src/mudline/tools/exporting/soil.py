@@ -28,6 +28,8 @@ _RIGID_SHARE = 1e-3
 _HALVINGS = 80
 _SAME = 1e-3
 """Share by which equal stiffnesses may differ."""
+_KNOWN = frozenset({LawKind.NONE, *(LawKind.CURVE, LawKind.LINEAR, LawKind.RIGID, LawKind.NODAL, LawKind.SOIL)})
+"""Kinds of laws with a stiffness here, 0 without a law; others are left out."""
 _SETTINGS = {
     "SEABED CONTACT": {"smoothing": "no effect at rest beyond its zone", "damping": "no effect at rest"},
     "SEABED FRICTION": {
@@ -217,6 +219,9 @@ def report_governing(report: ExportReport, soils: list[ExportSoil], main: Export
 def report_stiffness(report: ExportReport, soils: list[ExportSoil], name: str, used: list[float]) -> None:
     """Report the normal law of each seabed with the stiffness in the target."""
     for soil, stiffness in zip(soils, used, strict=True):
+        if soil.kind not in _KNOWN:
+            report.add(soil.where, Outcome.LEFT_OUT, "none", f"no stiffness is known of the law {soil.law}")
+            continue
         same = abs(stiffness - soil.stiffness) <= 1e-6 * stiffness
         target, effect = f"{name} {kilo(stiffness)}", soil.says()
         status = Outcome.CARRIED if same and soil.kind is LawKind.LINEAR else Outcome.APPROXIMATED

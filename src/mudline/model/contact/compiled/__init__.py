@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mudline.basics import arguments
 from mudline.model.contact.laws import law_module
 from mudline.model.contact.tables import LawTables, NormalRows
 
@@ -193,9 +194,7 @@ def trench_tables(tables: LawTables) -> tuple[Any, ...]:
 
 def read_only(array: Any) -> Any:
     """Return a read-only contiguous view or copy: a single type to compile for."""
-    view = np.ascontiguousarray(array).view()
-    view.setflags(write=False)
-    return view
+    return arguments.read_only(np.ascontiguousarray(array))
 
 
 def plain(array: Any) -> Any:

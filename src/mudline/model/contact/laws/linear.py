@@ -41,6 +41,7 @@ It is added to the reaction, which friction depends on, and never pulls.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -85,8 +86,8 @@ def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value,
     return stiffness * z, stiffness
 
 
-def linear_steepest(z: Value, diameter: Value, stiffness: Value) -> Value:
-    """Return K."""
+def constant_stiffness(z: Value, diameter: Value, stiffness: Value, *_zone: Value) -> Value:
+    """Return K, the largest stiffness of a linear law at any penetration, with a zone or without."""
     return stiffness
 
 
@@ -108,11 +109,6 @@ def smoothed_reaction(
     in_zone = np.maximum(stiffness, into) * drop * (share * (1.5 - scale)) * np.minimum(stiffness, into)
     inside = z < half_width + shift
     return where(inside, in_zone, stiffness * (z - shift)), where(inside, stiffness * drop * share, stiffness)
-
-
-def smoothed_steepest(z: Value, diameter: Value, stiffness: Value, half_width: Value, one_sided: Value) -> Value:
-    """Return K."""
-    return stiffness
 
 
 def zone_onset(stiffness: Value, half_width: Value, one_sided: Value) -> Value:
@@ -143,8 +139,6 @@ _STIFFNESS = Parameter("stiffness", "F/L2", "force per unit length and length of
 _HALF_WIDTH = Parameter("half_width", "L", "half width h of the quadratic zone; 0 for a kinked law", default=0.0)
 _ONE_SIDED = Parameter("one_sided", "1", "1 for a zone below the mudline only", high=1.0, default=0.0)
 
-_AT_MEAN_DEPTH = "with a linear stiffness, at the mean depth (inferred)"
-
 
 def _planned_nodes(parameters: dict[str, FloatArray]) -> str:
     nodes = len(parameters["stiffness"])
@@ -167,31 +161,27 @@ LINEAR = NormalLaw(
     acts_on="elements",
     parameters=(_STIFFNESS,),
     reaction=linear_reaction,
-    steepest=linear_steepest,
-    plan=_AT_MEAN_DEPTH,
+    steepest=constant_stiffness,
+    plan="with a linear stiffness, at the mean depth (inferred)",
     equation="F = K z",
     source="definition of STIFFNESS=",
 )
-SMOOTHED = NormalLaw(
+SMOOTHED = replace(
+    LINEAR,
     name="smoothed",
     summary="linear stiffness with a quadratic zone",
-    acts_on="elements",
     parameters=(_STIFFNESS, _HALF_WIDTH, _ONE_SIDED),
     reaction=smoothed_reaction,
-    steepest=smoothed_steepest,
     onset=zone_onset,
-    plan=_AT_MEAN_DEPTH,
     equation="F = K (z + h)^2 / (4 h) in the zone, K z beyond (CENTRED); K z^2 / (4 h), K (z - h) (ONE-SIDED)",
     source="definition of SMOOTHING= and FORM=",
 )
-NODAL = NormalLaw(
+NODAL = replace(
+    SMOOTHED,
     name="nodal",
     summary="stiffness of a node",
     acts_on="nodes",
     parameters=(Parameter("stiffness", "F/L", "force per length of penetration of the node"), _HALF_WIDTH, _ONE_SIDED),
-    reaction=smoothed_reaction,
-    steepest=smoothed_steepest,
-    onset=zone_onset,
     plan=_planned_nodes,
     equation="as `smoothed`, at the node's own penetration",
     source="definition of NODAL STIFFNESS=",
@@ -281,28 +271,24 @@ def _at(step: Moving, parameters: dict[str, FloatArray]) -> FloatArray:
     return np.where((step.z > 0.0) & (step.v < 0.0), parameters["damping"], 0.0)
 
 
-def _damping(name: str, summary: str, acts_on: str, parameter: Parameter) -> Law:
-    return Law(
-        name=name,
-        summary=summary,
-        acts_on="nodes" if acts_on == "nodes" else "elements",
-        parameters=(parameter,),
-        velocities=True,
-        largest=_largest_damping,
-        damping=_at,
-        equation="f = c v_n, inward and in contact only",
-        source="definition of DAMPING=",
-    )
-
-
-DAMPING = _damping(
-    "damping", "damping of inward motion", "elements", Parameter("damping", "FT/L2", "c, per unit length")
+DAMPING = Law(
+    name="damping",
+    summary="damping of inward motion",
+    acts_on="elements",
+    parameters=(Parameter("damping", "FT/L2", "c, per unit length"),),
+    velocities=True,
+    largest=_largest_damping,
+    damping=_at,
+    equation="f = c v_n, inward and in contact only",
+    source="definition of DAMPING=",
 )
-NODAL_DAMPING = _damping(
-    "nodal damping", "damping of inward motion of a node", "nodes", Parameter("damping", "FT/L", "c, of the node")
+NODAL_DAMPING = replace(
+    DAMPING,
+    name="nodal damping",
+    summary="damping of inward motion of a node",
+    acts_on="nodes",
+    parameters=(Parameter("damping", "FT/L", "c, of the node"),),
 )
-
-
 RIGID = Law(
     name="rigid",
     summary="rigid seabed, a constraint",

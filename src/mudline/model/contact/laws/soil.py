@@ -49,10 +49,14 @@ def ultimate(z: Value, diameter: Value, soil: Numbers) -> tuple[Value, Value]:
 
 def initial(z: Value, diameter: Value, soil: Numbers) -> tuple[Value, Value]:
     """Return P_i and its slope at z >= 0."""
-    most, slope = ultimate(z, diameter, soil)
-    pace = soil[4] / diameter
+    most, rise = ultimate(z, diameter, soil)
+    return _first_loading(z, most, rise, soil[4] / diameter)
+
+
+def _first_loading(z: Value, most: Value, rise: Value, pace: Value) -> tuple[Value, Value]:
+    """Return P_i and its slope from P_u and its slope at z; `pace` is zeta / z."""
     share = 1.0 / (1.0 + pace * z)
-    return most * (pace * z) * share, slope * (pace * z) * share + most * pace * share * share
+    return most * (pace * z) * share, rise * (pace * z) * share + most * pace * share * share
 
 
 def lift(z: Value, diameter: Value, weight: Value) -> tuple[Value, Value]:
@@ -197,9 +201,7 @@ def advance(z: Value, diameter: Value, memory: Numbers, soil: Numbers) -> tuple[
     least = ultimate(z0, diameter, soil)[0]
     least = where(z0 > 0.0, least, 1.0)
     pace = soil[4] / diameter
-    share = 1.0 / (1.0 + pace * z)
-    virgin = most * (pace * z) * share
-    slope = rise * (pace * z) * share + most * pace * share * share
+    virgin, slope = _first_loading(z, most, rise, pace)
     size = where(deepest > 0.0, deepest, 1.0)
 
     below, drop = 0.0 - soil[5] * most, 0.0 - soil[5] * rise

@@ -53,7 +53,8 @@ class SuctionState(IntEnum):
     """Broken out, and still at least as high as at breakout."""
 
 
-COMPRESSION, SUCTION, HOLD, BROKEN = 1, 2, 3, 4
+COMPRESSION, SUCTION, HOLD, BROKEN = map(int, list(SuctionState)[1:])
+"""The states as numbers of compiled loops."""
 
 
 def maximum_force(v: Value, factor: Value, exponent: Value, regularisation: Value) -> tuple[Value, Value]:
@@ -132,9 +133,8 @@ def suction_damping(
     as constant.
     """
     with np.errstate(all="ignore"):
-        depth = breakout_uplift(np.maximum(before, v), law.depth_factor, law.depth_exponent, law.regularisation)
-        share = np.maximum(uplift, 0.0) / depth
-        force, force_slope = maximum_force(v, law.force_factor * factor, law.force_exponent, law.regularisation)
+        share = np.maximum(uplift, 0.0) / law.breakout_uplift(np.maximum(before, v))
+        force, force_slope = law.maximum_force(v, factor)
         part, part_slope = trapezoid(share, law.first_corner, law.second_corner)
         # The share falls with a growing depth: d share / d v = -share n_D / v.
         grows = v > np.maximum(before, law.regularisation)
@@ -185,8 +185,7 @@ class SuctionLaw(NamedTuple):
     @property
     def least_depth(self) -> FloatArray:
         """Delta_B at the least velocity."""
-        depth: FloatArray = breakout_uplift(0.0, self.depth_factor, self.depth_exponent, self.regularisation)
-        return depth
+        return self.breakout_uplift(0.0)
 
     @property
     def largest_factor(self) -> FloatArray:
@@ -197,6 +196,15 @@ class SuctionLaw(NamedTuple):
     def factor_per_cycle(self) -> FloatArray:
         """Multiplier of the cyclic factor for each completed cycle."""
         return np.where(self.counts_cycles, self.cyclic, 1.0)
+
+    def maximum_force(self, v: FloatArray, factor: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return F_max per unit length and dF_max/dv at pull-out velocities v >= 0, with these cyclic factors."""
+        return maximum_force(v, self.force_factor * factor, self.force_exponent, self.regularisation)
+
+    def breakout_uplift(self, v_max: FloatArray | float) -> FloatArray:
+        """Return Delta_B for the largest pull-out velocity of the episode."""
+        depth: FloatArray = breakout_uplift(v_max, self.depth_factor, self.depth_exponent, self.regularisation)
+        return depth
 
 
 def from_cohesion(
@@ -251,12 +259,9 @@ def _crossed(parameters: dict[str, FloatArray]) -> tuple[BoolArray, str]:
 
 def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return F_max / (xc1 Delta_B) and dF_max / dv per unit length, at the end of the rise, at velocities v."""
-    factor = law.force_factor * law.largest_factor
     with np.errstate(all="ignore"):
-        force, by_velocity = maximum_force(v, factor, law.force_exponent, law.regularisation)
-        uplift = breakout_uplift(v, law.depth_factor, law.depth_exponent, law.regularisation)
-        rise: FloatArray = force / (law.first_corner * uplift)
-    return rise, by_velocity
+        force, by_velocity = law.maximum_force(v, law.largest_factor)
+        return force / (law.first_corner * law.breakout_uplift(v)), by_velocity
 
 
 def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
@@ -265,12 +270,8 @@ def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
     F_max / ((1 - xc2) Delta_B): a structure has a unique equilibrium there only if it is stiffer, per unit length.
     """
     with np.errstate(all="ignore"):
-        force, _ = maximum_force(
-            velocity, law.force_factor * law.largest_factor, law.force_exponent, law.regularisation
-        )
-        uplift = breakout_uplift(velocity, law.depth_factor, law.depth_exponent, law.regularisation)
-        slope: FloatArray = force / ((1.0 - law.second_corner) * uplift)
-    return slope
+        force, _ = law.maximum_force(velocity, law.largest_factor)
+        return force / ((1.0 - law.second_corner) * law.breakout_uplift(velocity))
 
 
 def _damping(step: Moving, parameters: dict[str, FloatArray]) -> FloatArray:
@@ -294,14 +295,13 @@ def _largest(reached: Reached, parameters: dict[str, FloatArray]) -> tuple[Float
             rates if rates.ndim == 1 else np.fmax.reduce(rates, axis=0) for rates in suction_rates(law, reached.speed)
         )
         return rise, damping
-    factor = law.force_factor * law.largest_factor
-    n, slow = law.force_exponent, law.regularisation
+    acts, n, slow = law.force_factor * law.largest_factor > 0.0, law.force_exponent, law.regularisation
     rise = suction_rates(law, slow)[0]
-    rise = np.where((n > law.depth_exponent) & (factor > 0.0), np.inf, np.where(slow > 0.0, rise, np.inf))
-    at_rest, at_slow = maximum_force(0.0 * slow, factor, n, slow)[1], maximum_force(slow, factor, n, slow)[1]
-    damping = np.where((n > 1.0) & (factor > 0.0), np.inf, np.maximum(at_rest, at_slow))
+    rise = np.where((n > law.depth_exponent) & acts, np.inf, np.where(slow > 0.0, rise, np.inf))
+    at_rest, at_slow = (law.maximum_force(v, law.largest_factor)[1] for v in (0.0 * slow, slow))
+    damping = np.where((n > 1.0) & acts, np.inf, np.maximum(at_rest, at_slow))
     damping = np.where((slow > 0.0) | (n >= 1.0), damping, np.inf)
-    return np.where(factor > 0.0, rise, 0.0), np.where(factor > 0.0, damping, 0.0)
+    return np.where(acts, rise, 0.0), np.where(acts, damping, 0.0)
 
 
 SUCTION_LAW = Law(

@@ -93,7 +93,7 @@ class DrawnStretch:
         self.lines = []
         for place, line in enumerate(drawn):
             elements = lines.elements[line][evaluated[lines.elements[line]]]
-            arcs, node_arcs = lines.element_arc[elements], lines.node_arcs(line, data.given.length)
+            arcs, node_arcs = lines.element_arc[elements], lines.arcs[line]
             here, near = self._within(arcs), self._within(node_arcs)
             nodes = lines.nodes[line][near]
             self.lines.append(DrawnLine(line, style_of(place), elements[here], arcs[here], nodes, node_arcs[near]))
@@ -298,7 +298,7 @@ def _thick(axes: Axes, data: PlotData, drawn_line: DrawnLine) -> bool:
     """Draw the elements of a line that touch the seabed over it; return True if there are any."""
     lines, heights = data.given.lines, data.drawn.places[:, 0]
     here = np.flatnonzero(carried(data.drawn.result)[lines.elements[drawn_line.number]])
-    arcs, along = lines.node_arcs(drawn_line.number, data.given.length), heights[lines.nodes[drawn_line.number]]
+    arcs, along = lines.arcs[drawn_line.number], heights[lines.nodes[drawn_line.number]]
     here = here[thinned(np.nan_to_num(along[here]))] if here.size else here
     x, y = (gapped(values[here], values[here + 1]) for values in (arcs, along))
     axes.plot(x, y, color=drawn_line.style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
