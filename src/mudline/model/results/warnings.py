@@ -14,8 +14,9 @@ from functools import cached_property
 import numpy as np
 
 from mudline.basics.arguments import as_array
-from mudline.basics.quantities import shown, unit_names
+from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted, cut
+from mudline.basics.units import UNITS
 from mudline.language.codes.contact import GEO005, GEO017, RUN003, RUN004, RUN005, SBD006
 from mudline.language.codes.lines import SYN009
 from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
@@ -306,7 +307,7 @@ class ContactWatch:
             message = "nothing is in contact: the line lies outside the seabed; correct its bounds or the coordinates"
             yield self._warning(GEO005, message, None, self._elements, "line outside the seabed")
             return
-        distance = f"{shown(abs(gap))}{unit_names(scene.units).behind('length')}"
+        distance = f"{shown(abs(gap))}{UNITS[scene.units].behind('L')}"
         times = self._times
         at = "" if times is None else f" at time {shown(float(times[step]))}"
         number = scene.node_ids[node]
@@ -349,7 +350,7 @@ class ContactWatch:
 
     def _balanced(self) -> str:
         balance = self.balance
-        behind = unit_names(self._scene.units).behind("force")
+        behind = UNITS[self._scene.units].behind("F")
         elements = counted(len(balance.elements), "element")
         reaction, weight, empty = (each / balance.steps for each in (balance.reaction, balance.weight, balance.empty))
         total = "not known" if math.isnan(reaction) else f"{shown(reaction)}{behind}"
@@ -375,7 +376,7 @@ class ContactWatch:
         light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
         if not light.size or self._left_out:
             return
-        behind = unit_names(scene.units).behind("line_force") or " per length"
+        behind = UNITS[scene.units].behind("F/L") or " per length"
         least, how = float(self._lightest[light].min()), "without contents"
         if self._case is not None:
             line = scene.line_of(self._case.where)

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from mudline.basics.units import UNITS
 from mudline.model.contact.arrays import summed
 from mudline.model.contact.input import LawAssignment, LawKind
-from mudline.model.scene.deck_values import FORCE_UNIT, LARGEST_MOBILISATION, LENGTH_UNIT, number
+from mudline.model.scene.deck_values import LARGEST_MOBILISATION, number
 from mudline.model.scene.laws import Extension
 from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked
 from mudline.model.scene.resolved import ResolvedDeck
@@ -176,12 +177,12 @@ def suction_law(scene: ResolvedDeck, extension: Extension, elements: Indices) ->
     block = extension.of_element[elements]
     cohesion = extension.values(block, "cohesion")
     diameter = np.where(np.isnan(cohesion), np.nan, scene.diameter[elements])
-    units = LENGTH_UNIT.get(scene.units, 1.0), FORCE_UNIT.get(scene.units, 1.0)
-    computed = from_cohesion(cohesion, diameter, *units)
+    units = UNITS[scene.units]
+    computed = from_cohesion(cohesion, diameter, units.length, units.force)
     written = [extension.values(block, law, name) for law in ("force", "depth") for name in ("factor", "exponent")]
     factors = (np.where(np.isnan(own), default, own) for own, default in zip(written, computed, strict=True))
     first, second = (extension.values(block, "cutoff", name) for name in ("first", "second"))
-    slowest = _SLOWEST / LENGTH_UNIT.get(scene.units, math.nan)
+    slowest = _SLOWEST / units.length if units.known else math.nan
     return SuctionLaw(
         *SuctionFactors(*factors),
         first_corner=np.where(np.isnan(first), _CORNERS[0], first),
