@@ -32,7 +32,6 @@ from mudline.model.scene.numbering import Floats, Indices, distinct, first_of
 from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.weights import (
     PipeContents,
-    attached,
     contents,
     contents_case,
     left_out,
@@ -161,6 +160,7 @@ class ContactWatch:
         self._positions, self._places = positions, np.asarray(positions[0], dtype=np.float64)
         self._own = evaluation.source == "deck"
         self._weight = operating_weight(scene) if given.weight is None else given.weight
+        self._empty = operating_weight(scene, filled=False)
         self._elements = evaluation.elements
         self._nodes = distinct(scene.element_nodes[self._elements])
         self._lightest, self._case = self._least_weight()
@@ -209,12 +209,10 @@ class ContactWatch:
     def _least_weight(self) -> tuple[Floats, PipeContents | None]:
         """Return the least submerged weight per length (m,) over the load cases, and the first case that floats."""
         scene = self._scene
-        gravity, masses = scene.surroundings.gravity, attached(scene).weighing
-        own = scene.submerged_weight + masses * gravity if masses.any() else scene.submerged_weight
         with np.errstate(over="ignore", invalid="ignore"):
-            cases = [(own + case.mass * gravity, case) for case in contents(scene)]
+            cases = [(self._empty + case.mass * scene.surroundings.gravity, case) for case in contents(scene)]
         if not cases:
-            return own, None
+            return self._empty, None
         floating = next((case for weight, case in cases if (weight[self._elements] < 0.0).any()), None)
         return np.minimum.reduce([weight for weight, _ in cases]), floating
 
@@ -229,7 +227,7 @@ class ContactWatch:
             rigid = (law == LawKind.RIGID).any()
             balance.reaction += math.nan if rigid else float(kept(result.normal_force, self._nodes).sum())
             balance.weight += float((times * self._weight[here]).sum())
-            balance.empty += float((times * operating_weight(scene, filled=False)[here]).sum())
+            balance.empty += float((times * self._empty[here]).sum())
         balance.elements = distinct(np.concatenate([balance.elements, here]))
         balance.steps += len(held)
 

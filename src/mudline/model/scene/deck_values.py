@@ -1,4 +1,4 @@
-"""Values of a deck: numbers and their ranges, files, legacy surfaces, units, and names that unread lines make."""
+"""Values of a deck: numbers, defaults, files that it names, and names that unread lines make."""
 
 from __future__ import annotations
 
