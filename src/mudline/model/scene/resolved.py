@@ -51,7 +51,7 @@ class ByName(Mapping[str, Value]):
         self._entries = {key(name): (name, value) for name, value in entries}
 
     def __getitem__(self, name: str) -> Value:
-        found = self._entries.get(self._key(name)) if isinstance(name, str) else None
+        found = self._find(name)
         if found is None:
             raise self._missing(name)
         return found[1]
@@ -80,6 +80,9 @@ class ByName(Mapping[str, Value]):
     def _ipython_key_completions_(self) -> list[str]:
         """Return the names, for the completion of `["` in notebooks."""
         return list(self)
+
+    def _find(self, name: object) -> tuple[str, Value] | None:
+        return self._entries.get(self._key(name)) if isinstance(name, str) else None
 
     def _missing(self, name: object) -> UnknownNameError:
         if not isinstance(name, str):
