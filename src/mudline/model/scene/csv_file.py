@@ -204,7 +204,7 @@ def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> 
 
 
 def separator_of(text: str) -> str:
-    """Return the separator that gives the first line the most fields: comma, semicolon or tab."""
+    """Return the separator that gives the first row the most fields: comma, semicolon or tab."""
 
     def fields(separator: str) -> int:
         try:

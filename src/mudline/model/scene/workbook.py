@@ -95,7 +95,7 @@ def _rows(sheet: Any, texts: Any) -> Iterator[list[Cell]]:  # noqa: ANN401 - ope
 
 
 def csv_sheet(data: bytes, file: str) -> WorkbookSheet:
-    """Return a CSV file as a sheet; its first line shows the separator: comma, semicolon or tab.
+    """Return a CSV file as a sheet; its first row shows the separator: comma, semicolon or tab.
 
     Raises DeckError for a file that is not text.
     """
