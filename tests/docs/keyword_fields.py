@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from mudline.basics.units import UNITS
 from mudline.language.keywords.fields import FieldInfo
-from mudline.language.keywords.format import TAKES, range_text, unit_text, usual_text
+from mudline.language.keywords.format import TAKES, range_text, usual_text
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Row, Rows, record_schema
 from tests.docs.marking import marked
 
@@ -86,5 +87,5 @@ def _unit(about: FieldInfo) -> str:
 
 
 def _system_units(unit: str) -> str:
-    found = [unit_text(unit, system) for system in ("metric", "imperial")]
+    found = [system.text(unit) for system in UNITS.values() if system.known]
     return unit if found[0] == unit else " / ".join(found)

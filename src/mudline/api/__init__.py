@@ -16,7 +16,7 @@ import numpy as np
 
 from mudline.basics.arguments import expect, expect_word, given_path, read_only, several
 from mudline.basics.files import write_atomically
-from mudline.basics.quantities import UNIT_SYSTEMS
+from mudline.basics.units import UNITS
 from mudline.checks.configuration import Configured
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import select as _chosen
@@ -441,5 +441,5 @@ def given_rules(select: Iterable[str], ignore: Iterable[str]) -> tuple[Rule, ...
 def given_units(units: str | None) -> str | None:
     """Return a unit system passed as an argument, or None; raises ValueError."""
     if units is not None:
-        expect_word(units, "units", UNIT_SYSTEMS)
+        expect_word(units, "units", UNITS)
     return units

@@ -6,42 +6,13 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Iterator
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 from mudline.basics.display import Cell, DisplayColumn, Value
+from mudline.basics.units import UNITS
 
 RESULT_FORMAT = "mudline-result/2"
 """Name and version of the format of result files."""
-
-UNIT_SYSTEMS = ("metric", "imperial", "user")
-
-
-class UnitNames(NamedTuple):
-    """Names of units; empty for user units."""
-
-    length: str
-    force: str
-    line_force: str
-    """Force per length of pipe."""
-    stiffness: str
-    """Force per length of pipe and length of penetration."""
-
-    def behind(self, quantity: Literal["length", "force", "line_force", "stiffness"]) -> str:
-        """Return a unit as written after a number, with a leading space; "" in user units."""
-        unit: str = getattr(self, quantity)
-        return f" {unit}" if unit else ""
-
-
-def unit_names(units: str) -> UnitNames:
-    """Return the unit names of "metric", "imperial" or "user" units."""
-    metric, imperial = UnitNames("m", "N", "N/m", "N/m2"), UnitNames("ft", "lbf", "lbf/ft", "lbf/ft2")
-    return {"metric": metric, "imperial": imperial}.get(units, UnitNames("", "", "", ""))
-
-
-def time_unit(units: str) -> str:
-    """Return the unit of time; "" in user units."""
-    return "s" if unit_names(units).length else ""
-
 
 Names = tuple[str | None, ...]
 
@@ -57,7 +28,7 @@ class Quantity(NamedTuple):
     Attributes:
         name: name of the column, the array and the key.
         meaning: text for the documentation, in Markdown.
-        unit: a field of `UnitNames`; "" for none.
+        unit: dimension of the unit, as in `mudline.basics.units`; "" for none.
         heading: heading in a table for people; the name where it is "".
         label: label of a plot axis; the name where it is "".
         names: texts of a column whose values are indices; the last, None, stands for -1.
@@ -76,8 +47,7 @@ class Quantity(NamedTuple):
 
     def unit_name(self, units: str) -> str:
         """Return the name of the unit in a system of units; "" for none."""
-        name: str = getattr(unit_names(units), self.unit) if self.unit else ""
-        return name
+        return UNITS[units].unit(self.unit)
 
     def column(
         self,
@@ -105,16 +75,16 @@ def _by_name(*quantities: Quantity) -> dict[str, Quantity]:
 ELEMENTS = _by_name(
     Quantity("element", "its number", over_steps=False),
     Quantity("set", "the set that gave it its law, or `null`", over_steps=False),
-    Quantity("arc_length", "of its middle, from the first end of its line", "length", over_steps=False),
-    Quantity("x", "coordinates of its middle; X is up", "length", label="height X"),
-    Quantity("y", "coordinates of its middle; X is up", "length"),
-    Quantity("z", "coordinates of its middle; X is up", "length"),
-    Quantity("diameter", "external diameter, or `null`", "length", over_steps=False),
-    Quantity("length", "length", "length", over_steps=False),
+    Quantity("arc_length", "of its middle, from the first end of its line", "L", over_steps=False),
+    Quantity("x", "coordinates of its middle; X is up", "L", label="height X"),
+    Quantity("y", "coordinates of its middle; X is up", "L"),
+    Quantity("z", "coordinates of its middle; X is up", "L"),
+    Quantity("diameter", "external diameter, or `null`", "L", over_steps=False),
+    Quantity("length", "length", "L", over_steps=False),
     Quantity(
         "depth",
         "mean distance of its two nodes below the seabed; `null` where there is no seabed",
-        "length",
+        "L",
         label="embedment",
     ),
     Quantity("ratio", "depth / diameter, or `null`", label="embedment ratio, depth / diameter"),
@@ -122,11 +92,11 @@ ELEMENTS = _by_name(
     Quantity(
         "force",
         "seabed reaction per unit length, positive upwards",
-        "line_force",
+        "F/L",
         label="seabed reaction\nper unit length",
     ),
-    Quantity("slope", "d force / d ratio, or `null`", "line_force"),
-    Quantity("stiffness", "d force / d depth, per unit length", "stiffness", label="seabed stiffness\nper unit length"),
+    Quantity("slope", "d force / d ratio, or `null`", "F/L"),
+    Quantity("stiffness", "d force / d depth, per unit length", "F/L2", label="seabed stiffness\nper unit length"),
     Quantity("law", "`curve:NAME`, `curve-cut`, or the name of [another law](numerics.md#which-law-an-element-has)"),
     Quantity(
         "state",
@@ -145,24 +115,24 @@ ELEMENTS = _by_name(
 
 NODES = _by_name(
     Quantity("node", "its number", over_steps=False),
-    Quantity("arc_length", "from the first end of its line; `null` without elements", "length", over_steps=False),
-    Quantity("x", "coordinates; X is up", "length", label="height X"),
-    Quantity("y", "coordinates; X is up", "length"),
-    Quantity("z", "coordinates; X is up", "length"),
-    Quantity("gap", "height above the seabed, along its normal; `null` where there is no seabed", "length"),
+    Quantity("arc_length", "from the first end of its line; `null` without elements", "L", over_steps=False),
+    Quantity("x", "coordinates; X is up", "L", label="height X"),
+    Quantity("y", "coordinates; X is up", "L"),
+    Quantity("z", "coordinates; X is up", "L"),
+    Quantity("gap", "height above the seabed, along its normal; `null` where there is no seabed", "L"),
     Quantity("normal", "normal of the seabed: x, y, z; `[null, null, null]` where there is no seabed", vector=True),
-    Quantity("reaction", "total force of the seabed on the node: x, y, z", "force", vector=True),
-    Quantity("normal_force", "the part along the normal, negative where it pulls", "force"),
+    Quantity("reaction", "total force of the seabed on the node: x, y, z", "F", vector=True),
+    Quantity("normal_force", "the part along the normal, negative where it pulls", "F"),
     Quantity(
         "axial_force",
         "seabed reaction on the pipe along the line: friction; 0.0 without it",
-        "force",
+        "F",
         "axial\nforce",
     ),
     Quantity(
         "lateral_force",
         "seabed reaction on the pipe across the line: friction and lateral springs; 0.0 without them",
-        "force",
+        "F",
         "lateral\nforce",
     ),
     Quantity("axial_state", "`open`, `stick` or `slip`; `null` without a friction law", "", "axial", names=SLIDING),
@@ -179,51 +149,49 @@ LINES = _by_name(
     Quantity("line", "its number, from 1", over_steps=False),
     Quantity("first_element", "elements at its ends", over_steps=False),
     Quantity("last_element", "elements at its ends", over_steps=False),
-    Quantity("length", "all of it", "length", over_steps=False),
+    Quantity("length", "all of it", "L", over_steps=False),
     Quantity("touchdown_points", "how often it comes down on the seabed or leaves it"),
-    Quantity(
-        "first_touchdown", "arc length of the first of these points", "length", "touchdown\nat", "touchdown point"
-    ),
-    Quantity("first_touchdown_x", "its coordinates; X is up", "length"),
-    Quantity("first_touchdown_y", "its coordinates; X is up", "length"),
-    Quantity("first_touchdown_z", "its coordinates; X is up", "length"),
-    Quantity("last_touchdown", "arc length of the last of these points", "length", label="last touchdown point"),
-    Quantity("last_touchdown_x", "its coordinates; X is up", "length"),
-    Quantity("last_touchdown_y", "its coordinates; X is up", "length"),
-    Quantity("last_touchdown_z", "its coordinates; X is up", "length"),
-    Quantity("contact_length", "length below the seabed", "length", "length in\ncontact", "length in contact"),
+    Quantity("first_touchdown", "arc length of the first of these points", "L", "touchdown\nat", "touchdown point"),
+    Quantity("first_touchdown_x", "its coordinates; X is up", "L"),
+    Quantity("first_touchdown_y", "its coordinates; X is up", "L"),
+    Quantity("first_touchdown_z", "its coordinates; X is up", "L"),
+    Quantity("last_touchdown", "arc length of the last of these points", "L", label="last touchdown point"),
+    Quantity("last_touchdown_x", "its coordinates; X is up", "L"),
+    Quantity("last_touchdown_y", "its coordinates; X is up", "L"),
+    Quantity("last_touchdown_z", "its coordinates; X is up", "L"),
+    Quantity("contact_length", "length below the seabed", "L", "length in\ncontact", "length in contact"),
     Quantity(
         "largest_force",
         "largest push of the seabed on an element, per unit length",
-        "line_force",
+        "F/L",
         "largest\nforce",
         "largest force",
     ),
     Quantity("largest_force_element", "the element", "", "element"),
-    Quantity("largest_force_arc_length", "arc length of its middle", "length"),
+    Quantity("largest_force_arc_length", "arc length of its middle", "L"),
     Quantity(
         "largest_uplift",
         "largest pull, negative, by suction or a curve",
-        "line_force",
+        "F/L",
         "largest\nuplift",
         "uplift, negative",
     ),
     Quantity("largest_uplift_element", "the element", "", "element"),
-    Quantity("largest_uplift_arc_length", "arc length of its middle", "length"),
+    Quantity("largest_uplift_arc_length", "arc length of its middle", "L"),
     Quantity(
         "reaction",
         "total normal force on its nodes; `null` on a rigid seabed",
-        "force",
+        "F",
         "total\nreaction",
         "total reaction",
     ),
     Quantity(
         "submerged_weight",
         "of its elements in contact, with contents and masses at nodes",
-        "force",
+        "F",
         "submerged\nweight",
     ),
-    Quantity("empty_weight", "the same without contents", "force", "weight,\nempty"),
+    Quantity("empty_weight", "the same without contents", "F", "weight,\nempty"),
     Quantity("ratio", "reaction / submerged weight"),
 )
 """Columns of lines, in order; a value that does not exist is `null`."""
@@ -232,24 +200,24 @@ STEPS = _by_name(
     Quantity(
         "reaction",
         "total normal force on all nodes; `null` on a rigid seabed",
-        "force",
+        "F",
         "total\nreaction",
         "total reaction",
     ),
     Quantity(
         "force",
         "largest magnitude of an element's force per unit length, with its sign",
-        "line_force",
+        "F/L",
         label="largest force\nper length",
     ),
     Quantity(
         "pull",
         "largest force per unit length that holds an element down, 0 where none does",
-        "line_force",
+        "F/L",
         label="largest suction\nper length",
     ),
     Quantity("touching", "number of elements in contact", "", "in\ncontact", "elements\nin contact"),
-    Quantity("deepest", "largest depth of an element", "length", "largest\ndepth", "deepest\nembedment"),
+    Quantity("deepest", "largest depth of an element", "L", "largest\ndepth", "deepest\nembedment"),
 )
 """Figures of a step, as plotted over time."""
 

@@ -259,7 +259,7 @@ def _inside(folder: str) -> str:
 def _columns(listed: Sequence[CaseSummary]) -> Iterator[DisplayColumn]:
     """Yield the columns of the evaluated decks with a heading; units and steps only where decks differ in them."""
     systems = {row.units for row in listed}
-    units = listed[0].units or "" if len(systems) == 1 else ""
+    units = listed[0].units or "user" if len(systems) == 1 else "user"
     shown_names = {name for name, quantity in CASES.items() if quantity.heading}
     shown_names |= {"units"} if len(systems) > 1 else set()
     shown_names |= {"steps"} if any(row.steps != 1 for row in listed) else set()

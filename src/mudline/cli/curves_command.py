@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mudline.basics.display import DisplayTable, number, text
-from mudline.basics.quantities import UnitNames, csv_lines, labelled, shown, unit_names
+from mudline.basics.quantities import csv_lines, labelled, shown
+from mudline.basics.units import UNITS, UnitSystem
 from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
@@ -110,7 +111,7 @@ def _kind(row: dict[str, Any]) -> list[str]:
 
 def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     """Print a table of segments for each curve, with the values for --at and --weight."""
-    printer, names = view.printer(), unit_names(scene.units)
+    printer, system = view.printer(), UNITS[scene.units]
     of_seabed = iter(used_curves(scene))  # they come first
     for row in rows:
         drawn, note, beyond = list[float](), "", _OF_WATER if row["kind"] == OF_CURRENT else ENDS[row["ends"]]
@@ -123,9 +124,9 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
             used = "" if len(scene.followers(index)) else ", diameters of *GEOMETRIC SETS"
             used = used if sizes else ", not used by an element with a diameter"
             title = f"{'set' if entry.embedment else 'curve'} {row['name']}: {len(row['points'])} points{used}"
-        units = [unit if names.length and unit != "-" else "" for unit in row["units"]]
+        units = [unit if system.known and unit != "-" else "" for unit in row["units"]]
         heads = [(f"{end}\n{axis}", unit) for axis, unit in zip(row["axes"], units, strict=True) for end in _ENDS]
-        heads += [("slope", _per(units)), *((f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)]
+        heads += [("slope", _per(units)), *((f"stiffness\nD={shown(size)}", system.unit("F/L2")) for size in drawn)]
         columns = [number(head, place, unit) for place, (head, unit) in enumerate(heads)]
         points = row["points"]
         segments = [
@@ -135,7 +136,7 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
         printer.table(DisplayTable(title, columns, segments, note))
         _print_values(printer, row, units)
         if "static" in row:
-            _print_static(printer, row, names)
+            _print_static(printer, row, system)
     if any(row["kind"] == OF_SEABED for row in rows):
         printer.line((_GOES_ON, "dim"))
 
@@ -160,15 +161,15 @@ def _print_values(printer: Printer, row: dict[str, Any], units: Sequence[str]) -
         printer.table(DisplayTable(f"{row['name']} at", columns, row["at"]))
 
 
-def _print_static(printer: Printer, row: dict[str, Any], names: UnitNames) -> None:
+def _print_static(printer: Printer, row: dict[str, Any], system: UnitSystem) -> None:
     embedments = [
         {**static, **each} for static in row["static"] for each in static["stiffness"] or [dict.fromkeys(_OF_DIAMETER)]
     ]
     columns = (
         number("ratio", "ratio"),
-        number("diameter", "diameter", names.length),
-        number("depth", "depth", names.length),
-        number("stiffness", "stiffness", names.stiffness),
+        number("diameter", "diameter", system.unit("L")),
+        number("depth", "depth", system.unit("L")),
+        number("stiffness", "stiffness", system.unit("F/L2")),
         number("extrapolated", "extrapolated"),
         text("equilibrium", lambda embedment: "" if embedment["stable"] else "unstable", optional=True),
     )

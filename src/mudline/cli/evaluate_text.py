@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from mudline.basics.display import DisplayColumn, DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import LINES, NODES, STEPS, shown, time_unit
+from mudline.basics.quantities import LINES, NODES, STEPS, shown
 from mudline.basics.short_repr import counted
+from mudline.basics.units import UNITS
 from mudline.cli.streams import View
 from mudline.model.contact import ContactResult, Plan
 from mudline.model.contact.columns import ResultColumn
@@ -263,7 +264,7 @@ def _print_steps(printer: Printer, screen: Screen) -> None:
 
 
 def _time(evaluation: Evaluation, value: str | int) -> DisplayColumn:
-    return number("time", value, time_unit(evaluation.scene.units))
+    return number("time", value, UNITS[evaluation.scene.units].unit("T"))
 
 
 def _print_peaks(printer: Printer, series: SeriesSummary) -> None:

@@ -11,6 +11,7 @@ import click
 
 from mudline.basics import files
 from mudline.basics.overwriting import claim
+from mudline.basics.units import UNITS
 from mudline.cli.streams import View, refusing
 
 Command = Callable[..., int]
@@ -104,7 +105,7 @@ jobs = run_option(
 
 units = input_option(
     "--units",
-    type=click.Choice(["metric", "imperial", "user"]),
+    type=click.Choice(tuple(UNITS)),
     help="Read the deck in this unit system, in place of that of its suffix, *UNITS or gravity.",
 )
 

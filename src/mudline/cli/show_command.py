@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mudline.api.commands import show
-from mudline.basics.quantities import shown, unit_names
+from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted
+from mudline.basics.units import UNITS
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.result_files import require_library, write_tables
@@ -77,7 +78,7 @@ def _form(output: str | None, output_format: str) -> str:
 
 def _print_head(printer: Printer, summary: dict[str, Any]) -> None:
     """Print counts, sections and keywords."""
-    unit = unit_names(summary["units"]).behind("length")
+    unit = UNITS[summary["units"]].behind("L")
     length = f", {shown(summary['length'])}{unit} long" if summary["length"] is not None else ""
     seabed = " and ".join(summary["seabed"]) or "no"
     more = "+" if summary["sets"][0]["open"] else ""  # of ALL, which comes first

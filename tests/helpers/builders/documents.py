@@ -7,7 +7,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from mudline.basics.quantities import UNIT_SYSTEMS
+from mudline.basics.units import UNITS
 from mudline.language.deck.document import FORMAT
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.library.analysis import Database, TimeSpan, TimeStepping
@@ -418,7 +418,7 @@ def section(draw: st.DrawFn, blocks: int = 3) -> Values:
 def document(draw: st.DrawFn) -> Values:
     """A whole deck."""
     made: Values = {"format": FORMAT, "source": draw(st.sampled_from(["a.keyxm", "\u00e9 b"]))}
-    made["units"] = draw(st.sampled_from(UNIT_SYSTEMS))
+    made["units"] = draw(st.sampled_from(list(UNITS)))
     told = draw(st.lists(remarks, max_size=2))
     if told:
         made["comments"] = draw(comments(told, 4))

@@ -100,7 +100,7 @@ def _linear(model: LineModel, stiffness: float) -> ContactModel:
     """The lines of a deck on the stiffness per length that was exported."""
     given = model.scene.contact_input()
     rows = np.arange(len(model.scene.element_ids))
-    law = LawAssignment("linear", rows, {"stiffness": np.full(len(rows), stiffness / model.units.stiffness)})
+    law = LawAssignment("linear", rows, {"stiffness": np.full(len(rows), stiffness / model.units.size("F/L2"))})
     return ContactModel(replace(given, laws=(law,)))
 
 
@@ -117,7 +117,7 @@ def _difference(model: LineModel, position: Floats, stiffness: float) -> float:
             own = float(arrays.curves[curve].evaluate(z / float(scene.diameter[at]))[0])
         else:
             own = float(np.nan_to_num(arrays.linear_stiffness[at])) * z
-        total += (own - stiffness / model.units.stiffness * z) * float(scene.length[at])
+        total += (own - stiffness / model.units.size("F/L2") * z) * float(scene.length[at])
     return total * model.units.force
 
 

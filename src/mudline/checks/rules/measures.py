@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from mudline.basics.units import UnitSystem
 from mudline.checks.context import LintContext
 from mudline.checks.rules.curve_points import swapped
-from mudline.checks.rules.slips import UNITLESS, DeckUnits, is_placeholder, meant_unit
+from mudline.checks.rules.slips import UNITLESS, is_placeholder, meant_unit
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.contents import names_given
@@ -83,7 +84,7 @@ class Numbers:
     """
 
     context: LintContext
-    units: DeckUnits
+    units: UnitSystem
     weighs: bool = True
     deep: bool = True
     part: Any = None

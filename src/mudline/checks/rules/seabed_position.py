@@ -8,13 +8,13 @@ from contextlib import suppress
 
 import numpy as np
 
+from mudline.basics.units import UNITS
 from mudline.checks.context import LintContext
 from mudline.checks.rules.curve_points import is_upside_down
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.model.contact.seabed import heading
-from mudline.model.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, first_of
@@ -289,12 +289,12 @@ def height_over_depth(context: LintContext) -> Iterator[Problem]:
     if not oceans or not len(scene.node_ids):
         return
     where, depth = oceans[-1][0], number(oceans[-1][1], "depth")
-    metres = METRES.get(scene.units)
+    units = UNITS[scene.units]
     deepest, height = context.once(depths).max(), -context.once(depths).min()
-    above_sea = (height - depth) * (metres or math.inf)
+    above_sea = (height - depth) * (units.length if units.known else math.inf)
     if not 0.0 < depth < math.inf or -deepest > depth or not height < math.inf:
         return
-    if height > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
+    if height > (HIGHEST if units.known else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
         highest = scene.node_ids[context.once(depths).argmin()]
         message = (
             f"node {highest} lies {height:.5g} high in water {depth!r} deep, expected "

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
 from itertools import chain, takewhile
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from mudline.basics.units import FOOT, POUND, TONNES, UNITS, UnitSystem
 from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.rules.load_cases import TIM003, TIM004, WAV002
 from mudline.checks.rules.seabed_position import UNT006
@@ -19,7 +18,7 @@ from mudline.language.keywords.contents import is_partly_unknown
 from mudline.language.keywords.model import FieldSpec, Part, record_schema
 from mudline.language.keywords.usual import Usual
 from mudline.language.syntax.rows import read_number
-from mudline.model.scene.deck_values import FOOT, POUND, number
+from mudline.model.scene.deck_values import number
 from mudline.model.scene.rules.fields import GEO001
 from mudline.model.scene.sections import format_of
 
@@ -39,7 +38,7 @@ CODES = {code.code: code for code in (UNT001, UNT002, UNT003, UNT004, UNT005, UN
 _INCH = FOOT / 12
 _POUND_MASS = 0.45359237
 _GRAVITY = 9.80665
-_SLUG = POUND / FOOT
+_SLUG = UNITS["imperial"].mass
 _KIP = 1e3 * POUND
 
 SLIPS = {
@@ -93,53 +92,18 @@ UNITLESS = ("", "-", "%", "deg", "T", "Hz")
 """Units of fields that are the same in every deck."""
 
 
-class DeckUnits(NamedTuple):
-    """Units of a deck: the name that `unit_text` knows, and sizes in SI, which are 1 if the units are not `known`."""
-
-    name: str
-    length: float = 1.0
-    force: float = 1.0
-    mass: float = 1.0
-    known: bool = True
-
-    @lru_cache(256)  # noqa: B019 - there are few units
-    def size(self, unit: str) -> float:
-        """Return a unit of a field in SI; 1 if it is not a dimension."""
-        if not re.fullmatch(r"(?:[FLMT]\d?|1|/)+", unit):
-            return 1.0
-        sizes = {"F": self.force, "L": self.length, "M": self.mass, "T": 1.0}
-        product = 1.0
-        for side, sign in zip(unit.split("/"), (1, -1), strict=False):
-            for letter, power in re.findall(r"([FLMT])(\d?)", side):
-                product *= sizes[letter] ** (sign * int(power or 1))
-        return product
-
-    def behind(self, unit: str) -> str:
-        """Return a unit of a field as it is written after a number, with a space; "" if none is known."""
-        from mudline.language.keywords.format import unit_text  # noqa: PLC0415 - only for a finding
-
-        if unit == "deg":
-            return " degrees"
-        return f" {unit_text(unit, self.name)}" if unit not in ("", "-") and self.known else ""
-
-
-_KNOWN = {
-    "metric": DeckUnits("metric"),
-    "imperial": DeckUnits("imperial", FOOT, POUND, _SLUG),
-}
 _LIGHT = (0.9, 1.3)
 """Range of densities of water in t/m3."""
 
 
-def deck_units(context: LintContext) -> DeckUnits:
+def deck_units(context: LintContext) -> UnitSystem:
     """Return the units of a deck; user units are tonnes and kilonewtons if the last *OCEAN shows it."""
-    if known := _KNOWN.get(context.scene.units):
-        return known
-    for _, ocean in reversed(context.blocks("OCEAN")):
+    units = UNITS[context.scene.units]
+    for _, ocean in () if units.known else reversed(context.blocks("OCEAN")):
         density, gravity = number(ocean, "density"), number(ocean, "gravity")
         if _LIGHT[0] <= density <= _LIGHT[1] and abs(gravity - _GRAVITY) < 0.02 * _GRAVITY:
-            return DeckUnits("tonnes", force=1e3, mass=1e3)
-    return DeckUnits("user", known=False)
+            return TONNES
+    return units
 
 
 _STRICT = 1.2
@@ -161,7 +125,7 @@ def is_placeholder(value: float) -> bool:
 
 
 def meant_unit(
-    usual: Usual, value: float, unit: str, units: DeckUnits, measured: Measured = float, *, strict: bool = False
+    usual: Usual, value: float, unit: str, units: UnitSystem, measured: Measured = float, *, strict: bool = False
 ) -> str:
     """Return the other unit in which a number (as in the deck) has the usual value of its field, or "".
 
@@ -179,7 +143,7 @@ def meant_unit(
     return next((name for name, distance in away.items() if distance <= within), "")
 
 
-def likely_slips(usual: Usual, value: float, unit: str, units: DeckUnits, measured: Measured = float) -> str:
+def likely_slips(usual: Usual, value: float, unit: str, units: UnitSystem, measured: Measured = float) -> str:
     """Return the other units, in words, in which a number (as in the deck) would be usual; "" for none, or too many."""
     own = units.size(unit)
     known = SLIPS.get(unit, {}) if math.isnan(usual.typical) else {}

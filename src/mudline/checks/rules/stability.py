@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mudline.basics.quantities import unit_names
+from mudline.basics.units import UNITS
 from mudline.checks.context import LintContext
 from mudline.language.diagnostics import Code, Problem, Severity
 from mudline.language.keywords.text import shown
@@ -60,7 +60,7 @@ def suction_snap(scene: Scene, extension: Extension) -> Iterator[Problem]:
         known = np.flatnonzero(np.isfinite(needed) & (needed > 0.0))
         if known.size:
             worst = int(known[np.argmax(needed[known])])
-            unit = unit_names(scene.units).behind("stiffness")
+            unit = UNITS[scene.units].behind("F/L2")
             message = (
                 f"the release of the suction is softening: equilibrium needs a structural stiffness per unit length "
                 f"above F_max / ((1 - xc2) Delta_B) = {needed[worst]:.6g}{unit} at the velocity of "
@@ -285,7 +285,7 @@ def soft_unloading(scene: Scene, extension: Extension) -> Iterator[Problem]:
         stiffness = number(entry, "stiffness")
         softer = np.flatnonzero(held & (steepest > stiffness))
         if stiffness > 0.0 and softer.size:
-            unit = unit_names(scene.units).behind("stiffness")
+            unit = UNITS[scene.units].behind("F/L2")
             message = (
                 f"unloading stiffness {stiffness!r} is below the steepest slope of the loading law of "
                 f"{scene.describe(softer, '', '')}, {float(steepest[softer].max()):.6g}{unit}: it is raised to that; "

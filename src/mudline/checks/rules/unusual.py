@@ -13,6 +13,7 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
+from mudline.basics.units import UnitSystem
 from mudline.checks.context import LintContext
 from mudline.checks.rules.measures import OF_DEPTH, OF_POINTS, WEIGHED, Numbers
 from mudline.checks.rules.references import operator_files
@@ -26,7 +27,6 @@ from mudline.checks.rules.slips import (
     UNT005,
     UNT007,
     UNT008,
-    DeckUnits,
     deck_units,
     lacks_point,
     likely_slips,
@@ -135,7 +135,7 @@ def _is_judged(slot: FieldSpec) -> bool:
 
 
 @lru_cache(512)
-def _judged(part: type[Part], units: DeckUnits) -> tuple[list[tuple[FieldSpec, float, float]], list[FieldSpec]]:
+def _judged(part: type[Part], units: UnitSystem) -> tuple[list[tuple[FieldSpec, float, float]], list[FieldSpec]]:
     """Return the fields of a part that have usual values, and its tables that have them.
 
     Each field has the range (as in the deck) that needs no check. If a field compares more than the number itself,

@@ -10,7 +10,7 @@ from typing import Any, cast
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic.json_schema import models_json_schema
 
-from mudline.basics.quantities import UNIT_SYSTEMS
+from mudline.basics.units import UNITS
 from mudline.language.deck import MARK
 from mudline.language.deck.faults import Faults, Locate, document_path, refusal, respelt
 from mudline.language.deck.keyword_text import is_faulty, raw_places, sampled, to_keyword
@@ -192,8 +192,8 @@ class _DocumentReader:
         self._only(document, ("format", "source", "units", "preamble", "comments", "sections"), ())
         deck.source = self._checked(str, document.get("source", ""), ("source",), "")
         deck.units = document.get("units", "user")
-        if deck.units not in UNIT_SYSTEMS:
-            self.faults.add(("units",), f"expected one of {', '.join(UNIT_SYSTEMS)}, found {shown(deck.units)}")
+        if deck.units not in UNITS:
+            self.faults.add(("units",), f"expected one of {', '.join(UNITS)}, found {shown(deck.units)}")
         deck.preamble = self._lines(document.get("preamble", []), ("preamble",), "$")
         deck.comments = self._checked(list[Comment], document.get("comments", []), ("comments",), [])
         sections = document.get("sections")
@@ -353,7 +353,7 @@ def json_schema() -> dict[str, Any]:
         {
             "format": {"const": FORMAT},
             "source": {"type": "string", "description": "name of the file that the deck was read from"},
-            "units": {"enum": list(UNIT_SYSTEMS)},
+            "units": {"enum": list(UNITS)},
             "preamble": {**lines, "description": "lines before the first section"},
             "comments": comments,
             "sections": {"type": "array", "items": {"$ref": "#/$defs/Section"}},

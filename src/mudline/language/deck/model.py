@@ -11,8 +11,8 @@ from typing import Any, NamedTuple, Self
 
 from mudline.basics.arguments import expect, expect_fields, expect_word
 from mudline.basics.limits import LONGEST_MESSAGE
-from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.basics.short_repr import counted, cut, listed, outline, short_repr
+from mudline.basics.units import UNITS
 from mudline.language.diagnostics import (
     Blocks,
     Code,
@@ -178,7 +178,7 @@ class Deck:
     def __post_init__(self) -> None:
         """Raise ValueError if a caller of `mudline.Deck` gave a value of the wrong type."""
         expect_fields(self, _KINDS)
-        expect_word(self.units, "units", UNIT_SYSTEMS)
+        expect_word(self.units, "units", UNITS)
 
     def __repr__(self) -> str:
         blocks = sum(len(section.blocks) for section in self.sections)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
+from mudline.basics.units import UNITS
 from mudline.language.keywords.fields import FieldInfo, Setting
 from mudline.language.keywords.model import Block, FieldSpec, Part, RecordSchema, Rows, record_schema
 from mudline.language.keywords.table import row_format
@@ -86,22 +86,6 @@ def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
 
 # --------------------------------------------------------------------------------------------------- units and ranges
 
-_UNITS = {
-    "metric": {"F": "N", "L": "m", "M": "kg", "T": "s"},
-    "imperial": {"F": "lbf", "L": "ft", "M": "slug", "T": "s"},
-    "tonnes": {"F": "kN", "L": "m", "M": "t", "T": "s"},
-    "user": {"F": "force", "L": "length", "M": "mass", "T": "time"},
-}
-
-
-def unit_text(unit: str, system: str) -> str:
-    """Return the unit of a field in a unit system (F/L2 as N/m2, 1/L as 1/m); text that is not a dimension stays."""
-    if not re.fullmatch(r"(?:[FLMT]\d?|deg|1/|/)+", unit):
-        return unit
-    names = _UNITS[system] | {"deg": "deg"}
-    sides = [re.findall(r"([FLMT]|deg)(\d?)", side) for side in unit.split("/")]
-    return "/".join(" ".join(names[letter] + power for letter, power in side) or "1" for side in sides)
-
 
 def range_text(about: FieldInfo) -> str:
     """Return the range of a field's values, or ""."""
@@ -126,7 +110,7 @@ def field_lines(part: type[Part], depth: int = 0) -> list[str]:
     for slot in record_schema(part).slots:
         about = slot.about
         facts = [
-            f"[{unit_text(about.unit, 'user')}]" if about.unit else "",
+            f"[{UNITS['user'].text(about.unit)}]" if about.unit else "",
             range_text(about),
             f"one of {', '.join(slot.choices)}" if slot.choices else "",
             f"default {about.default}" if about.default else "",
@@ -139,7 +123,7 @@ def field_lines(part: type[Part], depth: int = 0) -> list[str]:
 
 def usual_text(about: FieldInfo) -> str:
     """Return the usual values of a field, in metric units, with the reason for each range; "" if none are declared."""
-    unit = "" if about.unit == "-" else "degrees" if about.unit == "deg" else unit_text(about.unit, "metric")
+    unit = UNITS["metric"].behind(about.unit).lstrip()
     texts: list[str] = []
     for usual in about.usuals:
         if not usual.explained:

@@ -11,7 +11,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.basics.quantities import ELEMENTS, NODES, Names, Quantity, time_unit
+from mudline.basics.quantities import ELEMENTS, NODES, Names, Quantity
+from mudline.basics.units import UNITS
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.input import ContactInput
 from mudline.model.contact.result import ContactResult, ResultPart
@@ -73,7 +74,7 @@ def timed(
     if clock is None:
         return flat
     times = np.broadcast_to(np.reshape(clock, (-1, 1)), (np.size(clock), rows))
-    return [ResultColumn(name, times, unit=time_unit(units) if name == "time" else ""), *flat]
+    return [ResultColumn(name, times, unit=UNITS[units].unit("T") if name == "time" else ""), *flat]
 
 
 NO_ELEMENT = -1

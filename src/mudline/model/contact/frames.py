@@ -13,8 +13,9 @@ from mudline.basics.arguments import expect_word
 from mudline.basics.html_repr import html_page, html_table
 from mudline.basics.installed import install_hint
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, time_unit
+from mudline.basics.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled
 from mudline.basics.short_repr import counted
+from mudline.basics.units import UNITS
 from mudline.model.contact.columns import ResultColumn, ResultTable, Values, timed
 from mudline.model.contact.result import ContactResult, ResultPart, TableName
 from mudline.model.contact.touchdown import result_table
@@ -79,7 +80,7 @@ def dataset(result: ContactResult) -> xr.Dataset:
             into = coordinates if column.name in _COORDINATES or column.name == kind else variables
             into[array_name(which, column.name)] = _variable(column, kind, None if single else part.count)
     if result.times is not None:
-        about = {"units": time_unit(result.known.units)}
+        about = {"units": UNITS[result.known.units].unit("T")}
         coordinates["time"] = (() if single else ("time",), np.asarray(result.times), _given(about))
     data: xr.Dataset = xarray.Dataset(variables, coordinates, {"units": result.known.units, "format": RESULT_FORMAT})
     return data

@@ -8,12 +8,9 @@ from dataclasses import asdict, dataclass
 from typing import Annotated, BinaryIO, Literal, get_type_hints
 
 from mudline.basics.quantities import Quantity, finite
+from mudline.basics.units import UNITS
 from mudline.model.results.series import PeakValue, SeriesSummary
 from mudline.model.results.warnings import ContactWarning
-from mudline.model.scene.deck_values import FOOT, POUND
-
-_PER_LENGTH = {"imperial": POUND / FOOT}
-"""N/m of a force per unit length, by unit system; 1 in the other systems."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,31 +28,29 @@ class CaseSummary:
     steps: Annotated[int | None, "number of time steps; 1 for one state"] = None
     elements: Annotated[int | None, "number of elements that were evaluated"] = None
     in_contact: Annotated[int | None, "largest number of elements in contact", "", "in\ncontact"] = None
-    touchdown_from: Annotated[
-        float | None, "least and largest arc length of a touchdown point", "length", "TDP\nat"
-    ] = None
-    touchdown_to: Annotated[float | None, "least and largest arc length of a touchdown point", "length"] = None
-    contact_length: Annotated[float | None, "largest length below the seabed", "length", "contact\nlength"] = None
+    touchdown_from: Annotated[float | None, "least and largest arc length of a touchdown point", "L", "TDP\nat"] = None
+    touchdown_to: Annotated[float | None, "least and largest arc length of a touchdown point", "L"] = None
+    contact_length: Annotated[float | None, "largest length below the seabed", "L", "contact\nlength"] = None
     largest_force: Annotated[
-        float | None, "largest push of the seabed on an element, per unit length", "line_force", "largest\nforce"
+        float | None, "largest push of the seabed on an element, per unit length", "F/L", "largest\nforce"
     ] = None
     largest_force_element: Annotated[int | None, "the element", "", "element"] = None
     largest_force_time: Annotated[float | None, "when; `null` for one state"] = None
     largest_uplift: Annotated[
-        float | None, "largest pull, negative, by suction or a curve", "line_force", "largest\nuplift"
+        float | None, "largest pull, negative, by suction or a curve", "F/L", "largest\nuplift"
     ] = None
     largest_uplift_element: Annotated[int | None, "the element", "", "element"] = None
     largest_uplift_time: Annotated[float | None, "when; `null` for one state"] = None
     reaction: Annotated[
-        float | None, "largest total normal force on all nodes; `null` on a rigid seabed", "force", "total\nreaction"
+        float | None, "largest total normal force on all nodes; `null` on a rigid seabed", "F", "total\nreaction"
     ] = None
     submerged_weight: Annotated[
         float | None,
         "of the elements in contact at that step",
-        "force",
+        "F",
         "subm.\nweight",
     ] = None
-    empty_weight: Annotated[float | None, "the same without contents", "force", "weight,\nempty"] = None
+    empty_weight: Annotated[float | None, "the same without contents", "F", "weight,\nempty"] = None
     contents_case: Annotated[
         int | None,
         "load case, from 1, whose contents the weight has; `null` if all have the same",
@@ -88,7 +83,7 @@ def worst_first(rows: Iterable[CaseSummary]) -> list[CaseSummary]:
 
     def rank(row: CaseSummary) -> tuple[bool, float]:
         force = -math.inf if row.largest_force is None else row.largest_force
-        return not row.failed, 0.0 if row.failed else -force * _PER_LENGTH.get(row.units or "", 1.0)
+        return not row.failed, 0.0 if row.failed else -force * UNITS[row.units or "user"].size("F/L")
 
     return sorted(rows, key=rank)
 

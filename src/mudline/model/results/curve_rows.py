@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from mudline.basics.quantities import finite
+from mudline.basics.units import UNITS
 from mudline.language.deck.parameters import folded
-from mudline.language.keywords.format import unit_text
 from mudline.model.curves import ForceCurve
 from mudline.model.results.summary import CURVE_SIDES
 from mudline.model.scene.curves import SceneCurve
@@ -73,7 +73,7 @@ def _curve_row(
         "kind": entry.kind,
         "keyword": entry.keyword,
         "axes": list(entry.axes),
-        "units": [unit_text(unit, scene.units) for unit in entry.units],
+        "units": [UNITS[scene.units].text(unit) for unit in entry.units],
         "ends": entry.ends,
         "reach": [finite(end) for end in entry.reach],
     }

@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.basics.quantities import SLIDING, STEPS, Quantity, time_unit
+from mudline.basics.quantities import SLIDING, STEPS, Quantity
+from mudline.basics.units import UNITS
 from mudline.model.contact.columns import NO_ELEMENT, ResultColumn, Values, kept
 from mudline.model.contact.input import LawKind
 from mudline.model.contact.result import ResultPart
@@ -298,7 +299,7 @@ def _extremes(
             yield ResultColumn(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))
             yield ResultColumn(f"{name}_step", steps, blank=_NO_STEP)
             if times is not None:
-                yield ResultColumn(f"{name}_time", np.where(known, times[steps], np.nan), unit=time_unit(units))
+                yield ResultColumn(f"{name}_time", np.where(known, times[steps], np.nan), unit=UNITS[units].unit("T"))
 
 
 def _totals(summary: SeriesSummary, times: Floats | None) -> list[ResultColumn]:
@@ -315,6 +316,6 @@ def _totals(summary: SeriesSummary, times: Floats | None) -> list[ResultColumn]:
         ResultColumn("element", elements, blank=NO_ELEMENT),
     ]
     if times is not None:
-        unit = time_unit(summary.evaluation.scene.units)
+        unit = UNITS[summary.evaluation.scene.units].unit("T")
         columns.insert(3, ResultColumn("time", np.where(steps >= 0, times[steps], np.nan), unit=unit))
     return columns

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
-from mudline.basics.quantities import LINES, STEPS, shown, time_unit, unit_names
+from mudline.basics.quantities import LINES, STEPS, shown
+from mudline.basics.units import UNITS
 from mudline.model.contact.columns import ResultColumn, coded
 from mudline.model.results.forms import ResultTables
 from mudline.model.results.totals import NOT_KNOWN
@@ -37,14 +38,14 @@ def set_table(sets: Rows, units: str) -> DisplayTable:
     columns = (
         text("set", "name"),
         number("elements", elements_of),
-        number("length", "length", unit_names(units).length),
+        number("length", "length", UNITS[units].unit("L")),
     )
     return DisplayTable("Element sets", columns, sets, OPEN if any(row["open"] for row in sets) else "")
 
 
 def diameter_table(diameters: Rows, units: str, none: Cell = None) -> DisplayTable:
     """Return the table of external diameters; `none` is the text for an unknown diameter."""
-    columns = (number("diameter", "diameter", unit_names(units).length, missing=none), number("elements", "elements"))
+    columns = (number("diameter", "diameter", UNITS[units].unit("L"), missing=none), number("elements", "elements"))
     return DisplayTable("External diameters", columns, diameters)
 
 
@@ -54,16 +55,16 @@ def static_table(rows: Rows, units: str, left_out: Sequence[str], case: int | No
     `left_out` are weights not included, `case` is the load case of the contents if they differ.
     The stiffness of springs of nodes is that of a node, and has no unit here.
     """
-    names, several = unit_names(units), any(row["filled"] for row in rows)
-    unit = "" if any(row["law"] == "nodal" for row in rows) else names.stiffness
+    system, several = UNITS[units], any(row["filled"] for row in rows)
+    unit = "" if any(row["law"] == "nodal" for row in rows) else system.unit("F/L2")
     columns = (
         text("set", "set"),
         *([number("first\nelement", "element")] if first else []),
         text("law", "law"),
         *([text("contents", lambda row: "with" if row["filled"] else "without")] if several else []),
-        number("weight", "weight", names.line_force),
+        number("weight", "weight", system.unit("F/L")),
         number("ratio", "ratio"),
-        number("penetration", "penetration", names.length),
+        number("penetration", "penetration", system.unit("L")),
         number("stiffness", "stiffness", unit),
     )
     return DisplayTable("Static embedment", columns, rows, weight_note(left_out, case))
@@ -92,7 +93,7 @@ def touchdown_table(
     """
     filled = any(row["submerged_weight"] != row["empty_weight"] for row in lines)
     columns = [
-        *([number("time", "time", time_unit(units))] if timed else []),
+        *([number("time", "time", UNITS[units].unit("T"))] if timed else []),
         LINES["line"].column(units),
         text("elements", lambda row: span(row["first_element"], row["last_element"])),
         LINES["first_touchdown"].column(units, touchdown),
@@ -130,7 +131,7 @@ def tables_of(summary: dict[str, Any], most: int) -> list[DisplayTable]:
     """Return the tables of a summary of a deck that have rows; `most` is the largest number of diameters."""
     units = summary["units"]
     of_set = (text("set", "set"), number("elements", "elements"))
-    stiffness = number("stiffness", "stiffness", unit_names(units).stiffness, optional=True)
+    stiffness = number("stiffness", "stiffness", UNITS[units].unit("F/L2"), optional=True)
     tables = (
         set_table(summary["sets"], units),
         _curves(summary["curves"], units),
@@ -144,13 +145,12 @@ def tables_of(summary: dict[str, Any], most: int) -> list[DisplayTable]:
 
 
 def _curves(curves: Rows, units: str) -> DisplayTable:
-    names = unit_names(units)
     columns = (
         text("curve", "name"),
         text("keyword", _keyword),
         number("points", "points"),
         number("ratio", lambda row: _range(row["ratios"])),
-        number("force", lambda row: _range(row["forces"]), names.line_force),
+        number("force", lambda row: _range(row["forces"]), UNITS[units].unit("F/L")),
         number("elements", elements_of),
     )
     return DisplayTable("Force-embedment curves", columns, curves)
@@ -165,15 +165,15 @@ def _range(ends: list[float] | None) -> str:
 
 
 def _resistance(blocks: Rows, units: str) -> DisplayTable:
-    names = unit_names(units)
+    unit = UNITS[units].unit
     columns = (
         text("set", "set"),
         number("elements", "elements"),
         number("friction\ncoefficients", lambda row: _pair(row["friction"]), optional=True),
-        number("mobilisation\nlengths", lambda row: _pair(row["mobilisation"]), names.length, optional=True),
-        number("lateral\nstiffness", "lateral", names.stiffness, optional=True),
-        number("suction\nstiffness", "suction", names.stiffness, optional=True),
-        number("suction\nzone", "extent", names.length, optional=True),
+        number("mobilisation\nlengths", lambda row: _pair(row["mobilisation"]), unit("L"), optional=True),
+        number("lateral\nstiffness", "lateral", unit("F/L2"), optional=True),
+        number("suction\nstiffness", "suction", unit("F/L2"), optional=True),
+        number("suction\nzone", "extent", unit("L"), optional=True),
     )
     return DisplayTable("Friction, lateral resistance, suction", columns, blocks)
 

@@ -14,8 +14,9 @@ from functools import cached_property
 import numpy as np
 
 from mudline.basics.arguments import as_array
-from mudline.basics.quantities import shown, unit_names
+from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted, cut
+from mudline.basics.units import UNITS
 from mudline.language.codes.contact import GEO005, GEO017, RUN003, RUN004, RUN005, SBD006
 from mudline.language.codes.lines import SYN009
 from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
@@ -31,7 +32,6 @@ from mudline.model.scene.numbering import Floats, Indices, distinct, first_of
 from mudline.model.scene.seabed import survey_of
 from mudline.model.scene.weights import (
     PipeContents,
-    attached,
     contents,
     contents_case,
     left_out,
@@ -160,6 +160,7 @@ class ContactWatch:
         self._positions, self._places = positions, np.asarray(positions[0], dtype=np.float64)
         self._own = evaluation.source == "deck"
         self._weight = operating_weight(scene) if given.weight is None else given.weight
+        self._empty = operating_weight(scene, filled=False)
         self._elements = evaluation.elements
         self._nodes = distinct(scene.element_nodes[self._elements])
         self._lightest, self._case = self._least_weight()
@@ -208,12 +209,10 @@ class ContactWatch:
     def _least_weight(self) -> tuple[Floats, PipeContents | None]:
         """Return the least submerged weight per length (m,) over the load cases, and the first case that floats."""
         scene = self._scene
-        gravity, masses = scene.surroundings.gravity, attached(scene).weighing
-        own = scene.submerged_weight + masses * gravity if masses.any() else scene.submerged_weight
         with np.errstate(over="ignore", invalid="ignore"):
-            cases = [(own + case.mass * gravity, case) for case in contents(scene)]
+            cases = [(self._empty + case.mass * scene.surroundings.gravity, case) for case in contents(scene)]
         if not cases:
-            return own, None
+            return self._empty, None
         floating = next((case for weight, case in cases if (weight[self._elements] < 0.0).any()), None)
         return np.minimum.reduce([weight for weight, _ in cases]), floating
 
@@ -228,7 +227,7 @@ class ContactWatch:
             rigid = (law == LawKind.RIGID).any()
             balance.reaction += math.nan if rigid else float(kept(result.normal_force, self._nodes).sum())
             balance.weight += float((times * self._weight[here]).sum())
-            balance.empty += float((times * operating_weight(scene, filled=False)[here]).sum())
+            balance.empty += float((times * self._empty[here]).sum())
         balance.elements = distinct(np.concatenate([balance.elements, here]))
         balance.steps += len(held)
 
@@ -306,7 +305,7 @@ class ContactWatch:
             message = "nothing is in contact: the line lies outside the seabed; correct its bounds or the coordinates"
             yield self._warning(GEO005, message, None, self._elements, "line outside the seabed")
             return
-        distance = f"{shown(abs(gap))}{unit_names(scene.units).behind('length')}"
+        distance = f"{shown(abs(gap))}{UNITS[scene.units].behind('L')}"
         times = self._times
         at = "" if times is None else f" at time {shown(float(times[step]))}"
         number = scene.node_ids[node]
@@ -349,7 +348,7 @@ class ContactWatch:
 
     def _balanced(self) -> str:
         balance = self.balance
-        behind = unit_names(self._scene.units).behind("force")
+        behind = UNITS[self._scene.units].behind("F")
         elements = counted(len(balance.elements), "element")
         reaction, weight, empty = (each / balance.steps for each in (balance.reaction, balance.weight, balance.empty))
         total = "not known" if math.isnan(reaction) else f"{shown(reaction)}{behind}"
@@ -375,7 +374,7 @@ class ContactWatch:
         light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
         if not light.size or self._left_out:
             return
-        behind = unit_names(scene.units).behind("line_force") or " per length"
+        behind = UNITS[scene.units].behind("F/L") or " per length"
         least, how = float(self._lightest[light].min()), "without contents"
         if self._case is not None:
             line = scene.line_of(self._case.where)

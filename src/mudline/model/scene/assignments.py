@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from mudline.basics.units import UNITS
 from mudline.model.contact.arrays import summed
 from mudline.model.contact.input import LawAssignment, LawKind
-from mudline.model.scene.deck_values import FORCE_UNIT, LARGEST_MOBILISATION, LENGTH_UNIT, number
+from mudline.model.scene.deck_values import LARGEST_MOBILISATION, number
 from mudline.model.scene.laws import Extension
 from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked
 from mudline.model.scene.resolved import ResolvedDeck
@@ -32,26 +33,26 @@ def element_smoothing(scene: ResolvedDeck) -> LawAssignment:
     stiffness = scene.law_arrays().linear_stiffness
     with np.errstate(all="ignore"):
         penetration = scene.submerged_weight / stiffness
-    width = _half_width(extension, block, penetration, scene.diameter)
-    rows = np.flatnonzero(width > 0.0)
-    sides = extension.says(block, "form", "ONE-SIDED")
-    return LawAssignment(
-        "smoothed", rows, {"stiffness": stiffness[rows], "half_width": width[rows], "one_sided": sides[rows]}
-    )
+    zones = _zones(extension, block, stiffness, penetration, scene.diameter)
+    rows = np.flatnonzero(zones["half_width"] > 0.0)
+    return LawAssignment("smoothed", rows, {name: values[rows] for name, values in zones.items()})
 
 
-def _half_width(extension: Extension, block: Indices, penetration: Floats, diameter: Floats) -> Floats:
-    """Return half widths h at points that follow each `block` (-1: none), from static penetrations Z and diameters D.
+def _zones(
+    extension: Extension, block: Indices, stiffness: Floats, penetration: Floats, diameter: Floats
+) -> dict[str, Floats | Mask]:
+    """Return stiffness and quadratic zone at points that follow each `block` (-1: none), as parameters of a law.
 
-    It is the given number, or that of AUTO, which depends on Z alone if there is no diameter; 0 for NONE.
+    The half width of a zone is the given number, or that of AUTO, which depends on the static penetration Z alone if
+    there is no diameter; 0 for NONE.
     """
     from mudline.model.contact.laws.linear import automatic_half_width  # noqa: PLC0415 - only now is it needed
 
     automatic = automatic_half_width(penetration, np.where(np.isnan(diameter), np.inf, diameter))
     automatic = np.where(np.isfinite(automatic), automatic, 0.0)
     explicit = extension.values(block, "smoothing", default=0.0)
-    width: Floats = np.where(_is_auto(extension, block), automatic, explicit)
-    return np.where(block >= 0, width, 0.0)
+    width = np.where(block >= 0, np.where(_is_auto(extension, block), automatic, explicit), 0.0)
+    return {"stiffness": stiffness, "half_width": width, "one_sided": extension.says(block, "form", "ONE-SIDED")}
 
 
 def _is_auto(extension: Extension, block: Indices) -> Mask:
@@ -94,12 +95,9 @@ def nodal_springs(scene: ResolvedDeck) -> LawAssignment:
     stiffness, ends = nodal_stiffness(scene, extension), scene.element_nodes
     with np.errstate(all="ignore"):  # W L_t / Kn, of half of the total weight of a node's elements
         penetration = summed(0.5 * scene.submerged_weight * scene.length, ends, len(scene.node_ids)) / stiffness
-    width = _half_width(extension, block, penetration, _sizes(scene))
+    zones = _zones(extension, block, stiffness, penetration, _sizes(scene))
     rows = np.flatnonzero(~np.isnan(stiffness))
-    sides = extension.says(block, "form", "ONE-SIDED")
-    return LawAssignment(
-        "nodal", rows, {"stiffness": stiffness[rows], "half_width": width[rows], "one_sided": sides[rows]}
-    )
+    return LawAssignment("nodal", rows, {name: values[rows] for name, values in zones.items()})
 
 
 def nodal_stiffness(scene: ResolvedDeck, extension: Extension) -> Floats:
@@ -176,12 +174,12 @@ def suction_law(scene: ResolvedDeck, extension: Extension, elements: Indices) ->
     block = extension.of_element[elements]
     cohesion = extension.values(block, "cohesion")
     diameter = np.where(np.isnan(cohesion), np.nan, scene.diameter[elements])
-    units = LENGTH_UNIT.get(scene.units, 1.0), FORCE_UNIT.get(scene.units, 1.0)
-    computed = from_cohesion(cohesion, diameter, *units)
+    units = UNITS[scene.units]
+    computed = from_cohesion(cohesion, diameter, units.length, units.force)
     written = [extension.values(block, law, name) for law in ("force", "depth") for name in ("factor", "exponent")]
     factors = (np.where(np.isnan(own), default, own) for own, default in zip(written, computed, strict=True))
     first, second = (extension.values(block, "cutoff", name) for name in ("first", "second"))
-    slowest = _SLOWEST / LENGTH_UNIT.get(scene.units, math.nan)
+    slowest = _SLOWEST / units.length if units.known else math.nan
     return SuctionLaw(
         *SuctionFactors(*factors),
         first_corner=np.where(np.isnan(first), _CORNERS[0], first),

@@ -90,12 +90,10 @@ def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
 
 def _laws_beside(scene: ResolvedDeck) -> list[LawAssignment]:
     """Return suction, lateral springs, friction, trenches."""
-    laws = []
-    if _given(scene, "suction"):
-        stiffness, extent = scene.resistance.column("suction"), scene.resistance.column("extent")
-        # a spring without an extent of its zone has no effect
-        rows = np.flatnonzero((stiffness > 0.0) & (extent > 0.0) & (scene.law != LawKind.RIGID))
-        laws.append(LawAssignment("suction spring", rows, {"stiffness": stiffness[rows], "extent": extent[rows]}))
+    stiffness, extent = scene.resistance.column("suction"), scene.resistance.column("extent")
+    # a spring without an extent of its zone has no effect
+    rows = np.flatnonzero((stiffness > 0.0) & (extent > 0.0) & (scene.law != LawKind.RIGID))
+    laws = [LawAssignment("suction spring", rows, {"stiffness": stiffness[rows], "extent": extent[rows]})]
     if "SEABED SUCTION" in scene.extensions:
         laws.append(assignments.element_suction(scene))
     lateral = _lateral(scene)
@@ -110,7 +108,8 @@ def _laws_beside(scene: ResolvedDeck) -> list[LawAssignment]:
 
 def friction_of(scene: ResolvedDeck) -> LawAssignment | None:
     """Return the friction of the nodes; None if nothing gives any."""
-    if "SEABED FRICTION" not in scene.extensions and not _given(scene, "friction"):
+    given = any(coefficient > 0.0 for values in scene.resistance.values for coefficient in values.friction)
+    if "SEABED FRICTION" not in scene.extensions and not given:
         return None
     return assignments.node_friction(scene, _lateral(scene))
 
@@ -118,11 +117,6 @@ def friction_of(scene: ResolvedDeck) -> LawAssignment | None:
 def _lateral(scene: ResolvedDeck) -> Indices:
     """Return the elements with a lateral spring."""
     return np.flatnonzero((scene.resistance.column("lateral") > 0.0) & (scene.law != LawKind.RIGID))
-
-
-def _given(scene: ResolvedDeck, name: str) -> bool:
-    """Return True if a block of the seabed gives a value above 0."""
-    return any(np.greater(getattr(values, name), 0.0).any() for values in scene.resistance.values)
 
 
 def _seabed(scene: ResolvedDeck) -> Seabed | None:

@@ -24,7 +24,7 @@ from mudline.language.syntax.rows import read_number, read_rows
 from mudline.model.scene import numbering
 from mudline.model.scene.numbering import Floats, Ids
 
-SEPARATORS = (",", ";", "\t")
+_SEPARATORS = (",", ";", "\t")
 """Separators of fields in a file that another program wrote."""
 
 DAMAGED = (
@@ -165,12 +165,8 @@ def _exported(
 ) -> tuple[str, list[str]]:
     """Return the separator of a file with other headings, and a name for each of its columns. Raises DeckError."""
     headings_wanted = {name: headings.get(name, name) for name in known if name in headings or name in needed}
-    headers = {
-        separator: [field.strip() for field in next(csv_rows(file, text, separator), ([], 1))[0]]
-        for separator in SEPARATORS
-    }
-    best = max(SEPARATORS, key=lambda separator: len(headers[separator]))
-    header = headers[best]
+    separator = separator_of(text)
+    header = [field.strip() for field in next(csv_rows(file, text, separator), ([], 1))[0]]
     names_found = [field.casefold() for field in header]
     names = [f"{_UNUSED}{column}" for column in range(len(header))]
     optional = {name: name for name in known if name not in headings_wanted and name in names_found}
@@ -187,7 +183,7 @@ def _exported(
         if not names[column].startswith(_UNUSED):
             raise data_error(file, f"the column {shown(heading)} is taken for {names[column]} and for {name}")
         names[column] = name
-    return best, names
+    return separator, names
 
 
 def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> CsvTable:
@@ -205,6 +201,18 @@ def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> 
         for name, field in zip(names, row, strict=True):
             columns[name].append(field.strip())
     return CsvTable(file, columns, lines, text, separator)
+
+
+def separator_of(text: str) -> str:
+    """Return the separator that gives the first row the most fields: comma, semicolon or tab."""
+
+    def fields(separator: str) -> int:
+        try:
+            return len(next(csv_rows("", text, separator), ([], 1))[0])
+        except DeckError:  # reported when the lines are read
+            return 0
+
+    return max(_SEPARATORS, key=fields)
 
 
 def csv_rows(file: str, text: str, separator: str = ",") -> Iterator[tuple[list[str], int]]:

@@ -42,10 +42,11 @@ class DataLine(NamedTuple):
 def fault_of(path: Path, contents: DataFile, *, layout: str = "") -> str:
     """Return the first fault of a file, with its line, or ""; `layout` is MCS or LINE if the deck gives it."""
     try:
-        lines = list(_lines(path))
         if contents is DataFile.OPERATORS:
-            _operators(lines, layout)
-        elif contents in _WIDTH:
+            operators(path, layout)
+            return ""
+        lines = list(_lines(path))
+        if contents in _WIDTH:
             times = [row[0] for row in _table(lines, _WIDTH[contents])]
             after = next((at for at in range(1, len(times)) if times[at] <= times[at - 1]), 0)
             if after:
@@ -126,13 +127,10 @@ def _row(line: DataLine, width: int) -> list[float]:
 def operators(path: Path, layout: str = "") -> list[list[float]]:
     """Return heading, frequency, then amplitude and phase of heave, surge, sway, yaw, roll and pitch, row by row.
 
-    `layout` is MCS or LINE if the deck gives it. Raises OSError, or ValueError for the first fault of the file.
+    `layout` is MCS or LINE if the deck gives it, else it is that of the first line. Raises OSError, or ValueError for
+    the first fault of the file.
     """
-    return _operators(list(_lines(path)), layout)
-
-
-def _operators(lines: Sequence[DataLine], layout: str) -> list[list[float]]:
-    """Return operators in the layout that the deck names, or that their first line has."""
+    lines = list(_lines(path))
     if not lines:
         raise ValueError("the file has no operators")
     by_heading = bool(_HEADING.fullmatch(lines[0].text))

@@ -1,4 +1,4 @@
-"""Values of a deck: numbers and their ranges, files, legacy surfaces, units, and names that unread lines make."""
+"""Values of a deck: numbers, defaults, files that it names, and names that unread lines make."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path, PurePath
 
 from mudline.basics.files import look
 from mudline.basics.outside import is_made_by_system, is_refused, project_of
+from mudline.basics.units import FOOT, POUND
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, bare, folded, unquoted
 from mudline.language.diagnostics import Severity, Span, Where
@@ -24,15 +25,9 @@ from mudline.language.syntax.fields import FieldGroup, read_line
 from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.tree import data_lines
 
-FOOT = 0.3048
-POUND = 4.4482216152605
-
-LENGTH_UNIT = {"metric": 1.0, "imperial": FOOT}
-FORCE_UNIT = {"metric": 1.0, "imperial": POUND}
-
 DEFAULT_DENSITY = {"metric": 1025.0, "imperial": 1025.0 * FOOT**4 / POUND}
 DEFAULT_GRAVITY = {"metric": 9.81, "imperial": 9.81 / FOOT}
-LARGEST_MOBILISATION = {"metric": 3.048, "imperial": 10.0}
+LARGEST_MOBILISATION = {"metric": 10.0 * FOOT, "imperial": 10.0}
 """Largest default mobilisation length: 10 ft."""
 
 

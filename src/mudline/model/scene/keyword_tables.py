@@ -15,12 +15,12 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.basics.short_repr import cut, listed
+from mudline.basics.units import UNITS
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import read_source
 from mudline.language.diagnostics import Severity
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.fields import Setting
-from mudline.language.keywords.format import unit_text
 from mudline.language.keywords.model import Block, FieldSpec, Record, Rows, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation, Kind, Names
@@ -237,7 +237,7 @@ def _systems(sheet: WorkbookSheet, cell: Cell, dimension: str, unit: str) -> lis
     """Return the unit system of a unit in a heading, if it shows one. Raises DeckError for a unit of no system."""
     if not unit or dimension in {"", "-", "deg"}:
         return []
-    texts = {system: unit_text(dimension.replace(" ", ""), system) for system in ("metric", "imperial")}
+    texts = {name: system.text(dimension.replace(" ", "")) for name, system in UNITS.items() if system.known}
     names = {system: text.replace(" ", "") for system, text in texts.items()}
     written = unit.replace("^", "").replace("²", "2").replace("³", "3").replace(" ", "")
     fitting = [system for system, name in names.items() if name == written]

@@ -33,7 +33,6 @@ DIRECTIONS = ("longitudinal", "transverse")
 """Directions of friction, as the names of its fields begin."""
 
 NOTHING = -1
-_UNKNOWN = float("nan")
 
 
 class SetLaw(NamedTuple):
@@ -52,7 +51,7 @@ class SetLaw(NamedTuple):
     set_: NamedSet
     where: Where
     family: str
-    stiffness: float = float("nan")
+    stiffness: float = math.nan
     curve: int = NOTHING
     unknown: bool = False
 
@@ -180,14 +179,14 @@ class ResistanceValues(NamedTuple):
     the longitudinal, then of the transverse direction.
     """
 
-    friction: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
-    mobilisation: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
-    characteristic: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
-    constant: float = _UNKNOWN
-    friction_stiffness: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
-    lateral: float = _UNKNOWN
-    suction: float = _UNKNOWN
-    extent: float = _UNKNOWN
+    friction: tuple[float, float] = (math.nan, math.nan)
+    mobilisation: tuple[float, float] = (math.nan, math.nan)
+    characteristic: tuple[float, float] = (math.nan, math.nan)
+    constant: float = math.nan
+    friction_stiffness: tuple[float, float] = (math.nan, math.nan)
+    lateral: float = math.nan
+    suction: float = math.nan
+    extent: float = math.nan
 
 
 class SeabedResistance(NamedTuple):
@@ -242,7 +241,7 @@ def _resistance(entry: object, friction: object, suction: object, prefix: str = 
 
     def two(name: str) -> tuple[float, float]:
         if friction is None:
-            return _UNKNOWN, _UNKNOWN
+            return math.nan, math.nan
         return number(friction, f"longitudinal{name}"), number(friction, f"transverse{name}")
 
     return ResistanceValues(
@@ -295,7 +294,7 @@ class Extension(NamedTuple):
             value = getattr(entry, name, None)
             number_asks = value >= 0.0 if isinstance(value, float | int) else value is not None
             flags.append(number_asks or type(entry).model_fields[name].is_required())
-        return np.array([*flags, False])[self.of_element]
+        return marked(flags, self.of_element)
 
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:

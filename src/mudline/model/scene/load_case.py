@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from mudline.basics.units import UNITS
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import Names
 from mudline.model.scene.data_files import operators
-from mudline.model.scene.deck_values import FOOT, find_file, number
+from mudline.model.scene.deck_values import find_file, number
 from mudline.model.scene.numbering import Floats
 from mudline.model.scene.resolved import ResolvedDeck
 
@@ -73,10 +74,9 @@ def top_motion(
     if waves:
         found = _moved(scene, waves[0], vessel, direction)
     else:
-        size = _DEFAULT_HEAVE / FOOT if scene.units == "imperial" else _DEFAULT_HEAVE
         unread = any(name.startswith("WAVE-") for name in scene.deck.keywords("LOAD CASE"))
         why = "its waves are not read" if unread else "no waves"
-        found = TopMotion(size, 0.0, _DEFAULT_PERIOD, f"assumed, {why}", 0)
+        found = TopMotion(_DEFAULT_HEAVE / UNITS[scene.units].length, 0.0, _DEFAULT_PERIOD, f"assumed, {why}", 0)
     if heave is not None:
         found = found._replace(heave=heave, surge=0.0, source="as asked", line=0)
     return found if period is None else found._replace(period=period)

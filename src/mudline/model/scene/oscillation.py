@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from mudline.basics.quantities import time_unit, unit_names
+from mudline.basics.units import UNITS
 from mudline.language.diagnostics import Where
 from mudline.model.contact.arrays import summed
 from mudline.model.contact.input import ContactInput
@@ -79,7 +79,7 @@ def softening_needs(scene: ResolvedDeck, contact: Oscillation) -> str:
     """Return the requirements of a softening resistance on structure and time steps: " = stiffness; steps"."""
     from mudline.model.contact.stiffest import ADVISED_OMEGA_DT, rounded_down  # noqa: PLC0415 - loaded when it is needed
 
-    unit, time = unit_names(scene.units).behind("stiffness"), f" {time_unit(scene.units)}".rstrip()
+    unit, time = map(UNITS[scene.units].behind, ("F/L2", "T"))
     place, step = f"node {scene.node_ids[contact.node]}", rounded_down(ADVISED_OMEGA_DT / contact.omega)
     return f" = {contact.stiffness:.6g}{unit} ({place}); in time, the fall needs steps of {step:.3g}{time} or less"
 

@@ -28,7 +28,7 @@ from mudline.model.scene.context import Context
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.model.scene.mesh import MeshElements
-from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered, first_of
+from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered, first_of, marked, picked
 from mudline.model.scene.references import CURVES, THINGS, undefined
 from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import SectionTable, Surroundings, read_surroundings
@@ -308,8 +308,8 @@ class ResolvedDeck:
 
     def followers(self, curve: int) -> Indices:
         """Return indices of the elements that follow a curve, without those whose law an extension replaced."""
-        on_curve = np.array([*(set_law.curve == curve for set_law in self.laws.set_laws), False])
-        return np.flatnonzero(on_curve[self.laws.of_element] & (self.law == LawKind.CURVE))
+        on_curve = marked((set_law.curve == curve for set_law in self.laws.set_laws), self.laws.of_element)
+        return np.flatnonzero(on_curve & (self.law == LawKind.CURVE))
 
     @cached_property
     def law_names(self) -> list[str]:
@@ -341,7 +341,7 @@ class ResolvedDeck:
 
     def law_arrays(self) -> LawArrays:
         """Return the law of every element as arrays, even if other values of it are unknown."""
-        linear = np.array([*(set_law.stiffness for set_law in self.laws.set_laws), np.nan])[self.laws.of_element]
+        linear = picked((set_law.stiffness for set_law in self.laws.set_laws), self.laws.of_element)
         replaced = self.law != self.laws_given
         usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
         number = {index: position for position, index in enumerate(usable)}

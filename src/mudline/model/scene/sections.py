@@ -80,8 +80,7 @@ class SectionTable(NamedTuple):
         diameter comes from a file of elements have the weight of their section, if they have one.
         """
         entries = [section.entry for section in self.sections]
-        weights = ((_mass(entry) - around.density * _displaced(entry)) * around.gravity for entry in entries)
-        found = picked(weights, self.of_element)
+        found = picked((weights(entry, around)[1] for entry in entries), self.of_element)
         if on_land is not None:
             lifts = (around.density * _displaced(entry) * around.gravity for entry in entries)
             found = found + on_land * picked(lifts, self.of_element)
@@ -194,8 +193,8 @@ def read_surroundings(deck: Deck) -> Surroundings:
 
 def weights(entry: GeometricSet, around: Surroundings) -> tuple[float, float]:
     """Return weight in air and submerged weight of a section per length, in the deck's units; NaN if not known."""
-    in_air = _mass(entry) * around.gravity
-    return in_air, in_air - around.density * _displaced(entry) * around.gravity
+    mass = _mass(entry)
+    return mass * around.gravity, (mass - around.density * _displaced(entry)) * around.gravity
 
 
 def _mass(entry: GeometricSet) -> float:

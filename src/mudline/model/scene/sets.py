@@ -122,16 +122,13 @@ def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
         section = context.deck.sections[where.section]
         if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue
-        if section.name in _OF_THE_MODEL or not (name_key(name) in own or not context.deck.keywords()):
+        if section.name in catalogue.CERTAIN_SECTIONS or not (name_key(name) in own or not context.deck.keywords()):
             sets.check(name, where)
-
-
-_OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
 
 
 def sets_of_postprocessing(deck: Deck) -> dict[str, str]:
     """Return the sets that sections other than the model define, by their folded names."""
-    sections = (section for section in deck.sections if section.name not in _OF_THE_MODEL)
+    sections = (section for section in deck.sections if section.name not in catalogue.CERTAIN_SECTIONS)
     names = (name for section in sections for block in section.blocks for name in _sets_defined_by(block))
     return {name_key(name): bare(name) for name in names}
 

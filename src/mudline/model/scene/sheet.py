@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 from mudline.basics.display import DisplayColumn, number, text
 from mudline.basics.quantities import finite
-from mudline.language.keywords.format import unit_text
+from mudline.basics.units import UNITS
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.resolved import ResolvedDeck
@@ -42,7 +41,7 @@ def _columns(units: str, case: int | None) -> dict[str, list[DisplayColumn]]:
     Contents are those of the last load case, and are only given with a bore; `stiffness` is that of a linear law.
     Diameters of drag and buoyancy are given only where they differ from the outer one.
     """
-    unit, last = partial(_unit, units=units), f",\nload case {case}" if case else ""
+    unit, last = UNITS[units].unit, f",\nload case {case}" if case else ""
     none, unknown = ("none", "bold yellow"), ("unknown", "bold yellow")  # gaps of the deck
     return {
         "": [
@@ -78,10 +77,6 @@ def _columns(units: str, case: int | None) -> dict[str, list[DisplayColumn]]:
             number("friction\nacross", "lateral_friction"),
         ],
     }
-
-
-def _unit(dimension: str, units: str) -> str:
-    return "" if units == "user" else unit_text(dimension, units)
 
 
 def sheet_of(scene: ResolvedDeck) -> Sheet:
@@ -145,14 +140,14 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[DisplayColumn
         "axial_friction": friction[:, 0],
         "lateral_friction": friction[:, 1],
     }
-    others = []
+    others, unit = [], UNITS[scene.units].unit
     for case_contents in filled[:-1]:
         if (case_contents.density != last).any():
             case = f"load case {case_contents.number}"
             density, weight = (f"{what}_load_case_{case_contents.number}" for what in ("contents", "weight"))
             others += [
-                number(f"contents,\n{case}", density, _unit("M/L3", scene.units)),
-                number(f"weight,\n{case}", weight, _unit("F/L", scene.units)),
+                number(f"contents,\n{case}", density, unit("M/L3")),
+                number(f"weight,\n{case}", weight, unit("F/L")),
             ]
             values_by_column[density] = case_contents.density
             values_by_column[weight] = scene.submerged_weight + case_contents.mass * scene.surroundings.gravity

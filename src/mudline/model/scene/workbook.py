@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import zipfile
 from collections.abc import Iterator, Sequence
@@ -15,7 +14,7 @@ from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.short_repr import cut
 from mudline.language.diagnostics import DeckError
 from mudline.language.syntax.source import Source
-from mudline.model.scene.csv_file import DAMAGED, SEPARATORS, csv_rows, data_error
+from mudline.model.scene.csv_file import DAMAGED, csv_rows, data_error, separator_of
 
 
 @contextmanager
@@ -95,26 +94,16 @@ def _rows(sheet: Any, texts: Any) -> Iterator[list[Cell]]:  # noqa: ANN401 - ope
         yield cells
 
 
-def _width(line: str, separator: str) -> int:
-    """Return the number of fields of a line; 0 if it is not a line of a table, which is reported when it is read."""
-    try:
-        return len(next(csv.reader([line], delimiter=separator), []))
-    except csv.Error:
-        return 0
-
-
 def csv_sheet(data: bytes, file: str) -> WorkbookSheet:
-    """Return a CSV file as a sheet; its first line shows the separator: comma, semicolon or tab.
+    """Return a CSV file as a sheet; its first row shows the separator: comma, semicolon or tab.
 
     Raises DeckError for a file that is not text.
     """
     source = Source.from_bytes(data, file)
     if not source.readable:
         raise data_error(file, source.problems[0].message)
-    first = source.unified.partition("\n")[0]
-    separator = max(SEPARATORS, key=lambda mark: _width(first, mark))
     rows: list[list[Cell]] = []
-    for fields, line in csv_rows(file, source.unified, separator):
+    for fields, line in csv_rows(file, source.unified, separator_of(source.unified)):
         cells = ((column, text.strip()) for column, text in enumerate(fields, 1))
         rows.append([Cell(line, column, text) for column, text in cells if text])
     return WorkbookSheet(file, PurePath(file).stem, rows, is_workbook=False)

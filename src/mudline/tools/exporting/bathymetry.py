@@ -11,6 +11,7 @@ from scipy.spatial import ConvexHull, QhullError
 from mudline.basics.limits import LARGEST_FILE, MOST_CELLS
 from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted
+from mudline.basics.units import FOOT
 from mudline.model.contact.seabed.scattered import ScatteredSeabed
 from mudline.model.scene.csv_file import data_error
 from mudline.model.scene.numbering import Floats, Indices
@@ -23,7 +24,7 @@ _UNITS = {
     **dict.fromkeys(("centimetre", "centimeter", "centimetres", "centimeters", "cm"), 0.01),
     **dict.fromkeys(("millimetre", "millimeter", "millimetres", "millimeters", "mm"), 0.001),
     **dict.fromkeys(("kilometre", "kilometer", "kilometres", "kilometers", "km"), 1000.0),
-    **dict.fromkeys(("foot", "feet", "ft", "international foot"), 0.3048),
+    **dict.fromkeys(("foot", "feet", "ft", "international foot"), FOOT),
     **dict.fromkeys(("us survey foot", "us survey feet", "ftus"), 1200.0 / 3937.0),
     **dict.fromkeys(("fathom", "fathoms"), 1.8288),
 }

@@ -14,6 +14,7 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from mudline.basics.quantities import shown
+from mudline.basics.units import UNITS, UnitSystem
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.library.hydrodynamic_sets import HydrodynamicSets
 from mudline.model.contact import ContactResult
@@ -21,14 +22,14 @@ from mudline.model.contact.lines import lines_of
 from mudline.model.contact.seabed import Seabed
 from mudline.model.contact.touchdown import line_summaries
 from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms
-from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
+from mudline.model.scene.deck_values import number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import Section
 from mudline.model.scene.weights import BENDING_CURVES, STIFFNESS_CURVES, Pipe, contents_case, pipe_of, stiffnesses
 from mudline.tools.exporting.report import ExportReport, Outcome
-from mudline.tools.exporting.soil import ExportSoil, SiFactors, soils_of
+from mudline.tools.exporting.soil import ExportSoil, soils_of
 
 _ALIKE = 1e-3
 """Share of the longest element by which equal lengths may differ."""
@@ -36,7 +37,6 @@ _AROUND = 5
 """Elements in contact next to each touchdown point whose seabed is used for targets with one seabed."""
 _DRAG, _ADDED = 1.2, 1.0
 """Coefficients used if the deck has none."""
-_UNITS = {"metric": SiFactors(1.0, 1.0), "imperial": SiFactors(FOOT, POUND)}
 
 
 class End(NamedTuple):
@@ -125,7 +125,7 @@ class LineModel(NamedTuple):
     ends: list[End]
     lines: list[ExportLine]
     seabed: Seabed | None
-    units: SiFactors
+    units: UnitSystem
 
     def levels(self, x: Floats, y: Floats) -> Floats:
         """Return the elevation z of an unbounded seabed: outside the deck's seabed, its lowest known elevation."""
@@ -148,8 +148,8 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     stiffness. Also raised for an end that nothing holds, a closed line, and an unknown seabed.
     """
     report = ExportReport(scene)
-    units = _UNITS.get(scene.units)
-    if units is None:
+    units = UNITS[scene.units]
+    if not units.known:
         raise scene.refusal("the units of this deck are not known: give --units metric or --units imperial")
     _require_elements(scene)
     density, gravity, depth = scene.surroundings
@@ -208,7 +208,7 @@ def _require_elements(scene: Scene) -> None:
 # ------------------------------------------------------------------------------------------------------- sections
 
 
-def _sections(scene: Scene, units: SiFactors) -> tuple[list[PipeSection], Indices]:
+def _sections(scene: Scene, units: UnitSystem) -> tuple[list[PipeSection], Indices]:
     """Return the cross-sections in use, in the order of the deck, and that of each element (m,)."""
     table = scene.section_table
     bare = np.flatnonzero(table.of_element < 0)
@@ -223,7 +223,7 @@ def _sections(scene: Scene, units: SiFactors) -> tuple[list[PipeSection], Indice
     return pipes, of_element.ravel()
 
 
-def _pipe(scene: Scene, units: SiFactors, section: Section, pipe: Pipe, element: int) -> PipeSection:
+def _pipe(scene: Scene, units: UnitSystem, section: Section, pipe: Pipe, element: int) -> PipeSection:
     row, length, force = section.entry.section, units.length, units.force
     outer = float(scene.diameter[element])
     inner = number(row, "di", 0.0)
@@ -307,7 +307,7 @@ def _report_water(model: LineModel) -> None:
 
 
 def _lines(
-    scene: Scene, report: ExportReport, units: SiFactors, section_of: Indices, soil_of: Indices
+    scene: Scene, report: ExportReport, units: UnitSystem, section_of: Indices, soil_of: Indices
 ) -> tuple[list[End], list[ExportLine]]:
     held, vessels = held_freedoms(scene, [scene.deck])
     traced = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))

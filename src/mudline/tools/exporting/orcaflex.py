@@ -192,7 +192,7 @@ def _environment(model: LineModel) -> Items:
     weight = numbers["buoyancy"] / _BUOYANCY * model.units.force / model.units.length**3
     return items | {
         "SeabedModel": "Nonlinear soil model",
-        "SoilShearStrengthAtMudline": numbers["strength"] * model.units.stiffness / 1e3,
+        "SoilShearStrengthAtMudline": numbers["strength"] * model.units.size("F/L2") / 1e3,
         "SoilShearStrengthGradient": numbers["gradient"] * model.units.force / model.units.length**3 / 1e3,
         "SoilDensity": (weight / model.gravity + model.density) / 1e3,
     }

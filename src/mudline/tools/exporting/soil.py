@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.basics.quantities import shown
+from mudline.basics.units import UnitSystem
 from mudline.language.diagnostics import Where
 from mudline.model.contact.input import LawKind
 from mudline.model.contact.laws.soil import SOIL
@@ -39,23 +40,6 @@ _SETTINGS = {
     },
 }
 _PLAIN = ("AXIAL", "BOX", "COULOMB", "NONE")
-
-
-class SiFactors(NamedTuple):
-    """Units of a deck in metres, newtons and kilograms."""
-
-    length: float
-    force: float
-
-    @property
-    def mass(self) -> float:
-        """Unit of mass; the unit of time is the second."""
-        return self.force / self.length
-
-    @property
-    def stiffness(self) -> float:
-        """Unit of force per length and length."""
-        return self.force / self.length**2
 
 
 class ExportSoil(NamedTuple):
@@ -101,7 +85,7 @@ def kilo(stiffness: float) -> str:
     return f"{shown(stiffness / 1e3, 4)} kN/m2"
 
 
-def soils_of(scene: ResolvedDeck, units: SiFactors) -> tuple[list[ExportSoil], Indices]:
+def soils_of(scene: ResolvedDeck, units: UnitSystem) -> tuple[list[ExportSoil], Indices]:
     """Return the different seabeds of the elements, and the index of that of each element (m,)."""
     weight = np.nan_to_num(pipe_of(scene).weight)
     size = np.nan_to_num(scene.diameter)
@@ -141,7 +125,7 @@ def _friction(scene: ResolvedDeck, weight: Floats) -> Floats:
 
 
 def _soil(
-    scene: ResolvedDeck, units: SiFactors, arrays: LawArrays, at: int, weight: float, friction: list[float]
+    scene: ResolvedDeck, units: UnitSystem, arrays: LawArrays, at: int, weight: float, friction: list[float]
 ) -> ExportSoil:
     kind, diameter = LawKind(int(scene.law[at])), float(np.nan_to_num(scene.diameter[at]))
     parameters = {}
@@ -164,13 +148,13 @@ def _soil(
         place_in(scene.extensions.get(extension)) or (law.where if law else None),
         diameter * units.length,
         weight * units.force / units.length,
-        stiffness * units.stiffness,
-        tangent * units.stiffness,
+        stiffness * units.size("F/L2"),
+        tangent * units.size("F/L2"),
         (weight / stiffness if stiffness > 0.0 else 0.0) * units.length,
         friction[0],
         friction[1],
-        friction[2] * units.stiffness,
-        friction[3] * units.stiffness,
+        friction[2] * units.size("F/L2"),
+        friction[3] * units.size("F/L2"),
         place_in(scene.extensions.get("SEABED FRICTION")) or place_in(scene.resistance),
         tuple(parameters.items()),
     )

@@ -10,13 +10,13 @@ import numpy as np
 from lsprotocol import types
 
 from mudline.basics.limits import LISTED, MOST_HINTS
-from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import counted, listed_numbers
+from mudline.basics.units import UNITS
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.format import TAKES, format_lines, range_text, unit_text, usual_text
+from mudline.language.keywords.format import TAKES, format_lines, range_text, usual_text
 from mudline.language.keywords.model import FieldSpec
 from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.keywords.text import shown
@@ -91,7 +91,7 @@ def field_help(slot: FieldSpec, units: str) -> str:
     about = slot.about
     facts = [
         f"takes {', '.join(slot.choices)}" if slot.choices else f"takes a {TAKES[slot.kind]}" if slot.kind else "",
-        f"unit {unit_text(about.unit, units)}" if about.unit and about.unit != "-" else "",
+        f"unit {UNITS[units].text(about.unit)}" if about.unit and about.unit != "-" else "",
         "dimensionless" if about.unit == "-" else "",
         "mandatory" if slot.required else "",
         f"default {about.default}" if about.default else "",
@@ -174,7 +174,7 @@ def set_help(scene: Scene, name: str) -> str:
     if len(named_set.elements):
         words.append(listed_numbers(scene.element_ids[named_set.elements].tolist()))
         lengths = scene.length[named_set.elements]
-        words.append(_with_unit("total length", float(np.nansum(lengths)), unit_names(scene.units).length))
+        words.append(_with_unit("total length", float(np.nansum(lengths)), UNITS[scene.units].unit("L")))
     if diameters := _diameters(scene, scene.diameter[named_set.elements]):
         words.append(diameters)
     if named_set.open:
@@ -187,7 +187,7 @@ def _diameters(scene: Scene, diameters: Floats) -> str:
     sizes = np.unique(diameters[~np.isnan(diameters)])
     if not len(sizes):
         return ""
-    unit = unit_names(scene.units).length
+    unit = UNITS[scene.units].unit("L")
     if len(sizes) == 1:
         return _with_unit("D =", float(sizes[0]), unit)
     return f"D = {sizes[0]:g} to {_with_unit('', float(sizes[-1]), unit).strip()}"
@@ -223,13 +223,13 @@ def segment_help(analysis: Analysis, value_site: Site) -> str:
 
 def _slope_text(scene: Scene, slope: float, sizes: list[float]) -> str:
     """Return a slope, and the stiffness for the diameters of the elements that follow the curve."""
-    names = unit_names(scene.units)
-    text = _with_unit("slope", slope, names.line_force)
+    system = UNITS[scene.units]
+    text = _with_unit("slope", slope, system.unit("F/L"))
     if not sizes:
         return text
     low, high = slope / sizes[-1], slope / sizes[0]
     stiffness = f"{low:g}" if low == high else f"{low:g} to {high:g}"
-    return f"{text}, stiffness {stiffness} {names.stiffness}".rstrip() + f" ({_diameters(scene, np.array(sizes))})"
+    return f"{text}, stiffness {stiffness}{system.behind('F/L2')}" + f" ({_diameters(scene, np.array(sizes))})"
 
 
 def _title(entry: SceneCurve) -> str:
@@ -253,7 +253,7 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
     if entry.curve is None:
         return f"{_title(entry)} cannot be evaluated"
     ratios, forces = entry.curve.ratios, entry.curve.forces
-    unit = unit_names(scene.units).line_force
+    unit = UNITS[scene.units].unit("F/L")
     points = f"{counted(len(ratios), 'point')}, ratio {ratios[0]:g} to {ratios[-1]:g}"
     force = _with_unit(f"force {forces[0]:g} to", float(forces[-1]), unit)
     followed = counted(len(scene.followers(index)), "element")
@@ -281,7 +281,7 @@ def _node(scene: Scene, index: int) -> Iterator[str]:
 
 def _element(scene: Scene, index: int) -> Iterator[str]:
     nodes = [str(scene.node_ids[node]) if node >= 0 else "?" for node in scene.element_nodes[index].tolist()]
-    unit = unit_names(scene.units).length
+    unit = UNITS[scene.units].unit("L")
     facts = [f"nodes {' and '.join(nodes)}"]
     if not np.isnan(scene.length[index]):
         facts.append(_with_unit("length", float(scene.length[index]), unit))

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from mudline.basics.quantities import finite, labelled, shown, unit_names
+from mudline.basics.quantities import finite, labelled, shown
+from mudline.basics.units import UNITS
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.diagnostics import Where
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.format import unit_text
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, record_schema
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.writer import field_text
@@ -85,8 +85,8 @@ def _value(value: object, unit: str) -> str:
 def _unit(slot: FieldSpec, units: str, part: Part | None = None) -> str:
     """Return the unit of a field in a part, or of a column."""
     rotates = getattr(part, "dof", 0) in (4, 5, 6) or getattr(part, "type_", None) == "ROTARY INERTIA"
-    dimension = (slot.about.written_in or (slot.about.unit,))[-1 if rotates else 0].strip("-")
-    return unit_text(dimension, units) if dimension and units != "user" else ""
+    dimension = (slot.about.written_in or (slot.about.unit,))[-1 if rotates else 0]
+    return UNITS[units].unit(dimension)
 
 
 def _table(slot: FieldSpec, table: Table, units: str) -> str:
@@ -104,7 +104,7 @@ def _table(slot: FieldSpec, table: Table, units: str) -> str:
 def laws_of(scene: Scene) -> Iterator[dict[str, Any]]:
     """Yield the law of each set of elements, resistances and laws of extension keywords, with values in words."""
     keeps_it = scene.replacing < 0  # other elements have nodal springs or soil
-    stiffness_unit = unit_names(scene.units).behind("stiffness")
+    stiffness_unit = UNITS[scene.units].behind("F/L2")
     for index, grant in enumerate(scene.laws.set_laws):
         values: dict[str, Any] = {} if np.isnan(grant.stiffness) else {"stiffness": finite(grant.stiffness)}
         words = f"stiffness {shown(grant.stiffness)}{stiffness_unit}" if values else ""

@@ -8,8 +8,9 @@ from typing import Any
 
 from mudline.basics.display import DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.basics.quantities import LINES, STEPS, labelled, shown, unit_names
+from mudline.basics.quantities import LINES, STEPS, labelled, shown
 from mudline.basics.short_repr import counted, cut
+from mudline.basics.units import UNITS
 from mudline.model.results.summary_tables import (
     OPEN,
     diameter_table,
@@ -120,7 +121,7 @@ def _model_details(content: dict[str, Any], units: str) -> Iterator[DisplayTable
     counts = [(name, f"{content[name]}{more}") for name in ("nodes", "elements")]
     counts += [
         ("seabed", content["floor"]["kind"]),
-        (labelled("length of line", unit_names(units).length), content["length"]),
+        (labelled("length of line", UNITS[units].unit("L")), content["length"]),
     ]
     yield on_page(DisplayTable("Size", _FIGURES, counts))
     yield on_page(set_table(content["sets"], units), MOST_CURVES)
@@ -151,7 +152,7 @@ def _curves(content: dict[str, Any], _units: str) -> Iterator[DisplayTable]:
 
 
 def _curve_points(content: dict[str, Any], units: str) -> Iterator[DisplayTable]:
-    names = unit_names(units)
+    line_force = UNITS[units].unit("F/L")
     for place, row in enumerate(content["curves"][:MOST_CURVES], 1):
         over, value = row["axes"]
         slopes = [segment["slope"] for segment in row["segments"]]
@@ -159,7 +160,7 @@ def _curve_points(content: dict[str, Any], units: str) -> Iterator[DisplayTable]
         caption = f"{row['kind']} {cut(row['name'], LONGEST_NAME)} (*{row['keyword']}): {counted(len(points), 'point')}"
         of_seabed = row["kind"] == OF_SEABED
         ends = f"; slope {shown(slopes[0])} below the first, {shown(slopes[-1])} above the last" if slopes else ""
-        own = ["", names.line_force] if of_seabed else [unit.replace("-", "") for unit in row.get("units", ["", ""])]
+        own = ["", line_force] if of_seabed else [unit.replace("-", "") for unit in row.get("units", ["", ""])]
         slope = [number("slope to the next", 2, own[1])] if of_seabed else []
         of_points = (number(over, 0, own[0]), number(value, 1, own[1]), *slope)
         caption += ends if of_seabed else ""
@@ -173,17 +174,17 @@ def _weight_note(content: dict[str, Any]) -> str:
 
 
 def _contact(content: dict[str, Any], units: str) -> Iterator[DisplayTable]:
-    names = unit_names(units)
+    force = UNITS[units].unit("F")
     masses = "" if any(keyword.startswith("*MASS") for keyword in content["weights_without"]) else " and masses"
     weight = f"submerged weight of the elements in contact, with contents{masses}"
     figures = [
-        (labelled("total reaction", names.force), NOT_KNOWN if content["reaction"] is None else content["reaction"]),
-        (labelled(weight, names.force), content["weight"]),
-        (labelled("the same, empty", names.force), content["empty_weight"]),
+        (labelled("total reaction", force), NOT_KNOWN if content["reaction"] is None else content["reaction"]),
+        (labelled(weight, force), content["weight"]),
+        (labelled("the same, empty", force), content["empty_weight"]),
         ("reaction over weight with contents", content["ratio"]),
     ]
     if deepest := content["deepest"]:
-        words = labelled(f"largest depth, element {deepest['element']}", names.length)
+        words = labelled(f"largest depth, element {deepest['element']}", UNITS[units].unit("L"))
         figures.append((words, deepest["depth"]))
     notes = [_weight_note(content), *content["notes"]]
     title = f"Equilibrium of {_SHAPES[content['positions']]}"

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.basics.quantities import unit_names
 from mudline.basics.short_repr import short_repr
+from mudline.basics.units import UNITS
 from mudline.model.contact import ContactInput
 from mudline.model.contact.arrays import Positions
 from mudline.model.contact.stretch import cut_out, static_depth
@@ -104,14 +104,14 @@ class RestShape:
 
     def sentences(self, units: str) -> list[str]:
         """Return a sentence on each line: tension and length on the seabed, or why it has no shape."""
-        names, listed = unit_names(units), []
+        system, listed = UNITS[units], []
         for line in self.lines:
             if line.catenary is None:
                 words = "lies on the seabed from end to end"
             else:
                 lying = sum(last - first for first, last in line.catenary.lying)
-                tension = f"{line.catenary.tension:.6g}{names.behind('force')}"
-                words = f"horizontal tension {tension}, {lying:.6g}{names.behind('length')} lie on the seabed"
+                tension = f"{line.catenary.tension:.6g}{system.behind('F')}"
+                words = f"horizontal tension {tension}, {lying:.6g}{system.behind('L')} lie on the seabed"
             listed.append(f"resting shape of line {line.number}: {words}; no load case is solved")
         return [*listed, *(f"line {number} has no resting shape: {why}" for number, why in self.refused)]
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from mudline.basics.display import DisplayTable, number, text
-from mudline.basics.quantities import shown, unit_names
+from mudline.basics.quantities import shown
 from mudline.basics.short_repr import cut
-from mudline.language.keywords.format import unit_text
+from mudline.basics.units import UNITS
 from mudline.model.results.stage_times import StageRow
 from mudline.model.results.summary_tables import weight_note
 from mudline.model.scene.load_case import in_words
@@ -31,24 +31,23 @@ def description(result: Study) -> str:
     zone = result.zone
     if zone is None or "accuracy" not in result.parts:
         return ""
-    units, length = unit_names(result.units), float(zone.beam.places[-1])
+    system, length = UNITS[result.units], float(zone.beam.places[-1])
     law = zone.scene.law_names[zone.own].removeprefix("curve:")
     force = {"metric": f"{zone.beam.tension / _KILO:.3g} kN"}.get(result.units)
-    force = force or f"{zone.beam.tension:,.0f}{units.behind('force')}"
+    force = force or f"{zone.beam.tension:,.0f}{system.behind('F')}"
     scheme, given = zone.scheme, f"line {zone.scheme_line}" if zone.scheme_line else "the program's default"
     own = scheme.alpha if scheme.rho is None else scheme.rho
     values = f"{scheme.alpha_f:.3g}, {scheme.alpha_m:.3g}" if own is None else f"{own:.3g}"
     masses = float(zone.pipe.mass[zone.own]), float(zone.pipe.contents[zone.own]), float(zone.pipe.added_mass[zone.own])
     named = zip(("pipe", "contents", "water"), masses, strict=True)
     parts = ", ".join(f"{name} {_short(mass)}" for name, mass in named)
-    mass_unit = "" if result.units == "user" else f" {unit_text('M/L', result.units)}"
     reference = "" if result.reference is None else f" Errors against {result.milliseconds(result.reference.step)}."
     assumed = "" if zone.pipe.has_coefficients[zone.own] else " (Cd and Ca 1, assumed)"
     return (
-        f"Touchdown zone laid down and lifted: {length:.3g}{units.behind('length')} on {law} at {force}, "
-        f"{_motion(zone, units.behind('length'))}, {scheme.name} ({values}, {given}). "
-        f"{_weight(zone, units.behind('line_force'))} "
-        f"Mass {_short(sum(masses))}{mass_unit}: {parts}{assumed}.{reference}"
+        f"Touchdown zone laid down and lifted: {length:.3g}{system.behind('L')} on {law} at {force}, "
+        f"{_motion(zone, system.behind('L'))}, {scheme.name} ({values}, {given}). "
+        f"{_weight(zone, system.behind('F/L'))} "
+        f"Mass {_short(sum(masses))}{system.behind('M/L')}: {parts}{assumed}.{reference}"
     )
 
 
@@ -77,7 +76,7 @@ def steps_table(result: Study) -> DisplayTable | None:
     if not result.steps:
         return None
     seconds = "ms" if result.milliseconds(1.0).endswith("ms") else ""
-    length = unit_names(result.units).length
+    length = UNITS[result.units].unit("L")
     columns = (
         text("step", 0, seconds),
         number("touch-\ndown rms", 1, length),
@@ -90,7 +89,7 @@ def steps_table(result: Study) -> DisplayTable | None:
     )
     rows = [_step_cells(result, row) for row in result.steps]
     if result.mesh is not None:
-        unit = unit_names(result.units).behind("length")
+        unit = UNITS[result.units].behind("L")
         own, half = result.mesh.element_length
         even = result.zone is None or bool(np.allclose(result.zone.beam.lengths[result.zone.landing], own, rtol=0.01))
         row = f"{own:.3g}{unit} -> {half:.3g}{unit}" if even else "elements halved"

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.basics.quantities import unit_names
+from mudline.basics.units import UNITS
 from mudline.model.contact import ContactInput, ContactModel
 from mudline.model.contact.input import LawKind
 from mudline.model.contact.stretch import static_depth
@@ -86,7 +86,7 @@ def extreme_rows(zone: Zone, own: OwnSteps | None) -> tuple[list[ExtremeRow], li
 def _cases(zone: Zone) -> Iterator[tuple[str, Variant]]:
     """Yield names and variants, the stiffest first."""
     most = (_LARGE / 47.88 if zone.scene.units == "imperial" else _LARGE) / zone.stiffness
-    unit, last = unit_names(zone.scene.units).behind("stiffness"), 1.0
+    unit, last = UNITS[zone.scene.units].behind("F/L2"), 1.0
     for factor, name in ((1e3, "1e3"), (1e6, "1e6")):
         held = min(factor, most)
         if held > last:
@@ -165,7 +165,7 @@ def _jumps(scene: Scene, given: ContactInput) -> Iterator[tuple[int, float]]:
 
 def snapping(scene: Scene, given: ContactInput) -> str:
     """Return a sentence on a curve that falls so fast that the rest position is not unique, or ""."""
-    units = unit_names(scene.units)
+    system = UNITS[scene.units]
     for entry, curve, diameter, weight in _curves_in_use(scene, given):
         used = ramp(curve) if jump(curve, weight) else curve
         widths, drops = np.diff(used.ratios), -np.diff(used.forces)
@@ -175,8 +175,8 @@ def snapping(scene: Scene, given: ContactInput) -> str:
             high, low = used.forces[at : at + 2].tolist()
             where = _line_of_point(scene, entry, float(used.ratios[at]))
             return (
-                f"line {where}: curve {entry.name} falls from {high:.4g} to {low:.4g}{units.behind('line_force')} "
-                f"within {widths[at] * diameter:.3g}{units.behind('length')}: the rest position is not unique"
+                f"line {where}: curve {entry.name} falls from {high:.4g} to {low:.4g}{system.behind('F/L')} "
+                f"within {widths[at] * diameter:.3g}{system.behind('L')}: the rest position is not unique"
             )
     return ""
 
@@ -189,9 +189,9 @@ def _line_of_point(scene: Scene, entry: SceneCurve, ratio: float) -> int:
 
 def curve_notes(scene: Scene, given: ContactInput) -> list[str]:
     """Return sentences on curves that jump at the mudline, and on falling curves with the stiffness of the fall."""
-    units = unit_names(scene.units)
+    system = UNITS[scene.units]
     remarks = [
-        f"Line {line}: the force jumps to {force:.4g}{units.behind('line_force')} at the mudline: a ramp over {RAMP} D "
+        f"Line {line}: the force jumps to {force:.4g}{system.behind('F/L')} at the mudline: a ramp over {RAMP} D "
         "replaces it."
         for line, force in _jumps(scene, given)
     ]
@@ -201,8 +201,8 @@ def curve_notes(scene: Scene, given: ContactInput) -> list[str]:
             at = int(np.argmin(np.where(inside, curve.slopes, 0.0)))
             line = _line_of_point(scene, entry, float(curve.ratios[at]))
             stiffness = float(f"{float(curve.slopes[at]) / diameter:.4g}")
-            falls = f"{curve.forces[at]:.4g} to {curve.forces[at + 1]:.4g}{units.behind('line_force')}"
-            carried = f"a stiffness of {stiffness:,.15g}{units.behind('stiffness')} that the line has to carry"
+            falls = f"{curve.forces[at]:.4g} to {curve.forces[at + 1]:.4g}{system.behind('F/L')}"
+            carried = f"a stiffness of {stiffness:,.15g}{system.behind('F/L2')} that the line has to carry"
             remarks.append(f"Line {line}: curve {entry.name} falls from {falls}: {carried}.")
     return remarks
 

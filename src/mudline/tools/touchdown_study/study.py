@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
-from mudline.basics.quantities import as_json, finite, shown, time_unit, unit_names
+from mudline.basics.quantities import as_json, finite, shown
+from mudline.basics.units import UNITS
 from mudline.model.contact import ContactInput
 from mudline.model.results.evaluation import require_elements
 from mudline.model.results.stage_times import CLOCK, Pruning, Timer, pruned
@@ -107,7 +108,9 @@ class Study:
 
     def milliseconds(self, seconds: float) -> str:
         """Return a step in milliseconds; in user units, whose times have no name, in these units."""
-        return f"{shown(1e3 * seconds, 6 if seconds >= 1.0 else 4)} ms" if time_unit(self.units) else shown(seconds, 4)
+        return (
+            f"{shown(1e3 * seconds, 6 if seconds >= 1.0 else 4)} ms" if UNITS[self.units].known else shown(seconds, 4)
+        )
 
     @property
     def time_steps(self) -> Floats:
@@ -293,7 +296,7 @@ def _of_mesh(result: Study, row: StepRow) -> str:
     if zone is None:
         return ""
     longest = float(zone.beam.lengths[zone.landing].max())
-    bound, length = min(zone.length, zone.soil_length), unit_names(result.units).behind("length")
+    bound, length = min(zone.length, zone.soil_length), UNITS[result.units].behind("L")
     if longest > bound:
         return (
             f"Elements of {longest:.3g}{length} land whole: the line bends within {bound:.2g}{length}. The mesh is the "

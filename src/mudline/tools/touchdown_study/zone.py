@@ -10,12 +10,11 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from mudline.basics.quantities import unit_names
+from mudline.basics.units import UNITS
 from mudline.model.contact import ContactInput
 from mudline.model.contact.input import LawAssignment
 from mudline.model.contact.stretch import cut_out, static_depth
 from mudline.model.curves import ForceCurve
-from mudline.model.scene.deck_values import FOOT
 from mudline.model.scene.load_case import Scheme, TopMotion, scheme_of, top_motion
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
@@ -257,7 +256,7 @@ def touchdown_zone(scene: Scene, given: ContactInput, heave: float | None, perio
         travel * right / a,
         motion.period,
     )
-    unit, wave = unit_names(scene.units).behind("length"), math.sqrt(tension / mass) * motion.period
+    unit, wave = UNITS[scene.units].behind("L"), math.sqrt(tension / mass) * motion.period
     notes = list(_limits(line, 2.0 * travel + 4.0 * size, right, wave, right / a, unit))
     place, schemes = (elements, nodes, node - first), (scheme, scheme_line)
     return Zone(scene, given, pipe, line, *place, beam, *schemes, motion, travel, float(depths[1]), notes)
@@ -267,7 +266,7 @@ def _require(scene: Scene, own: int, weight: float, bending: float, mass: float)
     """Raise NotStudiedError for a pipe or a seabed at the touchdown that the model does not cover."""
     law, element = scene.law_names[own], scene.element_ids[own]
     if not weight > 0.0:
-        unit = unit_names(scene.units).behind("line_force")
+        unit = UNITS[scene.units].behind("F/L")
         raise NotStudiedError(f"the pipe floats: {weight:.4g}{unit} at its touchdown")
     if scene.section_table.of_element[own] < 0:
         raise NotStudiedError(f"element {element} at the touchdown has no section")
@@ -282,7 +281,7 @@ def _require(scene: Scene, own: int, weight: float, bending: float, mass: float)
 
 def _travel(scene: Scene, line: LineAtRest, motion: TopMotion) -> float:
     """Return the amplitude of the touchdown, from the resting shapes with the top moved a little."""
-    step = _DELTA / FOOT if scene.units == "imperial" else _DELTA
+    step = _DELTA / UNITS[scene.units].length
 
     def moved(surge: float, heave: float) -> float:
         ends = [touchdowns(line.moved(sign * surge, sign * heave), line.model.length)[-1].arc for sign in (1.0, -1.0)]

@@ -17,7 +17,8 @@ from matplotlib.ticker import LogLocator
 from mudline.basics.arguments import expect_word
 from mudline.basics.files import PLOT_FORMS, form_of_file, replacement
 from mudline.basics.limits import LONGEST_MESSAGE
-from mudline.basics.quantities import STEPS, labelled, time_unit, unit_names
+from mudline.basics.quantities import STEPS, labelled
+from mudline.basics.units import UNITS
 from mudline.model.contact import ContactResult, LawKind
 from mudline.model.results.plot_data import Extents, PlotData
 from mudline.model.results.plots import along_line
@@ -173,7 +174,7 @@ def touchdown(axes: Axes, stretch: DrawnStretch) -> None:
         if two:
             last_style = Style(line.style.color if several else COLORS[1], ":" if several else "--", line.style.marker)
             _band(axes, data, last, last_style, None if several else "last touchdown point")
-    axes.set_ylabel(labelled("arc length of touchdown", unit_names(data.given.units).length))
+    axes.set_ylabel(labelled("arc length of touchdown", UNITS[data.given.units].unit("L")))
     legend(axes)
 
 
@@ -195,7 +196,7 @@ def _band(axes: Axes, data: PlotData, values: Extents, style: Style, label: str 
     last = float(data.steps - 1) if data.times is None else float(data.times[-1])
     beside = 0.01 * (last - float(times[0])) or 0.5
     axes.set_xlim(float(times[0]) - beside, last + beside)
-    axes.set_xlabel("step [-]" if data.times is None else labelled("time", time_unit(data.given.units)))
+    axes.set_xlabel("step [-]" if data.times is None else labelled("time", UNITS[data.given.units].unit("T")))
 
 
 # --------------------------------------------------------------------------------------------------- the line of a deck
@@ -234,7 +235,7 @@ def model_figure(scene: Scene, data: PlotData | None) -> Figure:
             axes.plot(x, y, color=color, linewidth=width, label=legend_name(name), solid_capstyle="butt", zorder=3)
         if data is not None:
             _draw_ground(axes, data, along, up)
-        unit = unit_names(scene.units).length
+        unit = UNITS[scene.units].unit("L")
         axes.set_title(title, loc="right", fontsize="medium")
         axes.set(xlabel=labelled("XYZ"[along], unit), ylabel=labelled("XYZ"[up], unit))
         finish(axes)

@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.text import Annotation
 
-from mudline.basics.quantities import ELEMENTS, NODES, SLIDING, STATES, labelled, time_unit, unit_names
+from mudline.basics.quantities import ELEMENTS, NODES, SLIDING, STATES, labelled
+from mudline.basics.units import UNITS
 from mudline.model.results.plot_data import Chosen, Extents, PlotData
 from mudline.model.results.plots.style import (
     SEABED,
@@ -88,7 +89,7 @@ class DrawnStretch:
                 self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
         sides = (touching & (end <= self.limits[0]), touching & (begin >= self.limits[1])) if changes.size else ()
         parts = [f"{begin[side].min():.5g} to {end[side].max():.5g}" for side in sides if side.any()]
-        where = f"{' and '.join(parts)}{unit_names(data.given.units).behind('length')}"
+        where = f"{' and '.join(parts)}{UNITS[data.given.units].behind('L')}"
         self.beyond = f"where contact changes: {where} in contact, not drawn" if parts else ""
         self.lines = []
         for place, line in enumerate(drawn):
@@ -123,7 +124,7 @@ class DrawnStretch:
         beside = 0.01 * (high - low) or 0.5
         if _is_number(low, high):
             axes.set_xlim(low - beside, high + beside)
-        axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
+        axes.set_xlabel(labelled("arc length along the line", UNITS[self.data.given.units].unit("L")))
 
 
 def force(axes: Axes, stretch: DrawnStretch) -> None:
@@ -133,16 +134,16 @@ def force(axes: Axes, stretch: DrawnStretch) -> None:
     if not np.nan_to_num(result.force).any() and np.nan_to_num(result.normal_force).any():
         for line in stretch.lines:
             draw_line(axes, line.node_arcs, result.normal_force[line.nodes], line.style)
-        axes.set_ylabel(labelled("seabed reaction\non a node", unit_names(units).force))
+        axes.set_ylabel(labelled("seabed reaction\non a node", UNITS[units].unit("F")))
     else:
         _of_elements(axes, result.force, stretch)
         axes.set_ylabel(ELEMENTS["force"].axis(units))
         arcs, forces = data.given.lines.element_arc, np.nan_to_num(data.force.most)
         at = int(np.argmax(forces))
         if not stretch.limits[0] <= arcs[at] <= stretch.limits[1] and forces[at] > 0.0:
-            names = unit_names(units)
-            where = f"at {arcs[at]:.5g}{names.behind('length')}"
-            legend(axes, note=f"largest {forces[at]:.5g}{names.behind('line_force')} {where}, not drawn")
+            system = UNITS[units]
+            where = f"at {arcs[at]:.5g}{system.behind('L')}"
+            legend(axes, note=f"largest {forces[at]:.5g}{system.behind('F/L')} {where}, not drawn")
     zero_line(axes)
 
 
@@ -181,7 +182,7 @@ def suction(axes: Axes, stretch: DrawnStretch) -> None:
                 points = data.given.lines.element_arc[shown], pull[shown]
                 axes.plot(*points, style.marker, markersize=4, color=style.color, label=name, zorder=4)
     legend(axes, note=_step_note(data, chosen))
-    axes.set_ylabel(labelled("suction\nper unit length", unit_names(data.given.units).line_force))
+    axes.set_ylabel(labelled("suction\nper unit length", UNITS[data.given.units].unit("F/L")))
 
 
 def friction(axes: Axes, stretch: DrawnStretch) -> None:
@@ -202,7 +203,7 @@ def friction(axes: Axes, stretch: DrawnStretch) -> None:
     if slips:
         axes.plot([], [], "x", markersize=4, color="0.2", label="slips")
     zero_line(axes)
-    axes.set_ylabel(labelled("friction on a node", unit_names(data.given.units).force))
+    axes.set_ylabel(labelled("friction on a node", UNITS[data.given.units].unit("F")))
     legend(axes, note=_step_note(data, chosen))
 
 
@@ -236,7 +237,7 @@ def when(data: PlotData, step: int) -> str:
     """Return the time of a step, as text; "" for a state without a time."""
     if data.times is None:
         return "" if data.steps == 1 else f"step {step}"
-    return f"time {float(data.times[step]):.6g} {time_unit(data.given.units)}".rstrip()
+    return f"time {float(data.times[step]):.6g}{UNITS[data.given.units].behind('T')}"
 
 
 def _step_note(data: PlotData, chosen: Chosen) -> str:
@@ -311,11 +312,11 @@ def _touchdown_points(axes: Axes, stretch: DrawnStretch) -> None:
     at_step = stretch.data.touchdown_points([line.number for line in stretch.lines])
     points = sorted((point for point in at_step if low <= point.arc_length <= high), key=lambda point: point.arc_length)
     mark_touchdown(axes, [point.arc_length for point in points], [point.x for point in points])
-    unit = unit_names(stretch.data.given.units).length
+    unit = UNITS[stretch.data.given.units].behind("L")
     for number, point in enumerate(points if len(points) <= _LABELLED_POINTS else ()):
         right, above = point.arc_length < 0.5 * (low + high), number % 2 == 0
         axes.annotate(
-            f"TDP {point.arc_length:.5g} {unit}".rstrip(),
+            f"TDP {point.arc_length:.5g}{unit}",
             (point.arc_length, point.x),
             (8.0 if right else -8.0, 9.0 if above else -9.0),
             textcoords="offset points",

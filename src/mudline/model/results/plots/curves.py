@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from mudline.basics.quantities import ELEMENTS, STATES, labelled, unit_names
-from mudline.language.keywords.format import unit_text
+from mudline.basics.quantities import ELEMENTS, STATES, labelled
+from mudline.basics.units import UNITS
 from mudline.model.contact.arrays import FloatArray
 from mudline.model.results.plot_data import Cycle, PlotData
 from mudline.model.results.plots.along_line import DrawnStretch
@@ -69,7 +69,7 @@ def curves_figure(rows: Iterable[dict[str, Any]], units: str) -> Figure:
         axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
         title = f"{kind[:1].upper()}{kind[1:]}s"
         if kind == OF_SEABED:
-            force = labelled(ELEMENTS["force"].label, unit_text("F/L", units))
+            force = labelled(ELEMENTS["force"].label, UNITS[units].text("F/L"))
             labels = [labelled(ELEMENTS["ratio"].label, "-"), force]
         else:
             labels = [labelled(name, unit) for name, unit in zip(own[0]["axes"], own[0]["units"], strict=True)]
@@ -193,7 +193,7 @@ def loop(axes: Axes, stretch: DrawnStretch, place: int) -> None:
     data = stretch.data
     draw_path(axes, data.loop(place))
     number = int(data.given.element_ids[data.looped[place]])
-    axes.set_xlabel(labelled(f"penetration of element {number}", unit_names(data.given.units).length))
+    axes.set_xlabel(labelled(f"penetration of element {number}", UNITS[data.given.units].unit("L")))
     axes.set_ylabel(ELEMENTS["force"].axis(data.given.units).replace(" [", "\n["))
     legend(axes)
 
