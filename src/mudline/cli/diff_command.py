@@ -8,6 +8,7 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import asdict
 from itertools import accumulate, groupby
 
@@ -15,15 +16,15 @@ import click
 import numpy as np
 
 from mudline.api import Deck, public
-from mudline.api.commands import diff, diff_matrix
+from mudline.api.commands import deck_pairs, diff, diff_matrix
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
-from mudline.cli import DONE, FOUND, WRONG_USAGE, options
-from mudline.cli.inputs import STDIN, GivenDeck
-from mudline.cli.streams import Part, View, emit, notify, notify_diagnostics
-from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckStatus
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.inputs import STDIN, GivenDeck, Input, Inputs, many_files
+from mudline.cli.streams import Part, Progress, View, emit, notify_diagnostics
+from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckPair, DeckStatus, compare_pair
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
 from mudline.language.deck.loading import load_bytes
@@ -61,6 +62,7 @@ _OF_DECKS = {
 @options.every_file
 @options.stdin_name
 @options.units
+@options.jobs
 @options.common
 def command(
     *,
@@ -73,6 +75,7 @@ def command(
     every_file: bool,
     stdin_name: str,
     units: str | None,
+    jobs: int,
     view: View,
 ) -> int:
     """Compare two decks, or the decks of two folders, semantically, whatever their formats, layout and order.
@@ -102,10 +105,11 @@ def command(
         raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
     if all(folders):
         try:
-            both = diff(before, after, tolerance=tolerance, strict=strict, units=units, gitignore=not every_file)
+            pairs = deck_pairs(before, after, gitignore=not every_file)
         except FileNotFoundError:
             raise click.ClickException(f"{before}, {after}: no deck in these folders") from None
-        return _print_folders((before, after), tolerance, both.decks, output_format, view)
+        results, code = _compared(pairs, (tolerance, strict, units), view, jobs)
+        return max(code, _print_folders((before, after), tolerance, results, output_format, view))
     first, second = _pair(before, after, stdin_name, units)
     comparison = diff(first, second, tolerance=tolerance, strict=strict)
     if output_format == "json":
@@ -165,14 +169,39 @@ def _pair(before: str, after: str, stdin_name: str, units: str | None) -> tuple[
     return first, second
 
 
+def _compared(
+    pairs: Sequence[DeckPair], options: tuple[float, bool, str | None], view: View, jobs: int
+) -> tuple[list[ComparedDeck], int]:
+    """Compare the decks of two folders, and report what fails. Return the results, and an exit code for unread files.
+
+    A pair fails if a deck cannot be read or has errors, or if the program fails.
+    """
+    inputs = Inputs([Input(pair.before or pair.name, pair.before) for pair in pairs])
+    pair_of, done = dict(zip(inputs.files, pairs, strict=True)), dict[Input, ComparedDeck]()
+    progress = Progress(len(pairs), view)
+
+    def prepared(file: Input) -> tuple[Input, tuple[DeckPair, float, bool, str | None]]:
+        return file, (pair_of[file], *options)
+
+    with closing(many_files(inputs, prepared, compare_pair, progress, jobs=jobs)) as results:
+        for file, deck in results:
+            if deck is not None:
+                done[file] = deck
+                if deck.why:
+                    progress.hide()
+                notify_diagnostics(deck.errors)
+                if deck.unread is not None:
+                    inputs.fail(deck.why)
+    return [
+        done.get(file) or ComparedDeck(pair.name, DeckStatus.FAILED, crash=inputs.undone[file])
+        for file, pair in zip(inputs.files, pairs, strict=True)
+    ], inputs.code
+
+
 def _print_folders(
     folders: tuple[str, str], tolerance: float, decks: Sequence[ComparedDeck], output_format: str, view: View
 ) -> int:
     """Print the differences of the decks of two folders, and return the exit code."""
-    for deck in decks:
-        notify_diagnostics(deck.errors)
-        if deck.unread is not None:
-            notify(deck.why)
     counts = Counter(deck.status for deck in decks)
     if output_format == "json":
         emit(_folders_json(folders, tolerance, decks, counts))
@@ -181,8 +210,6 @@ def _print_folders(
         parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
         summary = f"{counted(len(decks), 'deck')}: {', '.join(parts)}"
         _print_lines(folders, folder_lines(decks, view), summary, output_format, view)
-    if any(deck.unread for deck in decks):
-        return WRONG_USAGE
     return DONE if counts[DeckStatus.EQUAL] == len(decks) else FOUND
 
 
