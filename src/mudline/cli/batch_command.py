@@ -16,6 +16,7 @@ from mudline.basics.files import remove_left
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.overwriting import claim, reading
 from mudline.basics.quantities import csv_lines
+from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.batch_cases import (
     SUMMARY,
@@ -32,7 +33,8 @@ from mudline.cli.batch_cases import (
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.result_files import is_installed, require_library
-from mudline.cli.streams import Progress, View, counted, emit, emit_json, make_folder, notify, write_text, writing
+from mudline.cli.streams import emit, emit_json, make_folder, notify, write_text, writing
+from mudline.cli.view import Progress, View
 from mudline.model.results.cases import CASES, CaseSummary, worst_first, write_parquet
 from mudline.tools.running.executors import check_address
 from mudline.tools.running.remembered import Memory, state

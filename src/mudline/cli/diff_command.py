@@ -23,7 +23,8 @@ from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, Input, Inputs, many_files
-from mudline.cli.streams import Part, Progress, View, emit, notify_diagnostics
+from mudline.cli.streams import emit, notify_diagnostics
+from mudline.cli.view import Part, Progress, View
 from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckPair, DeckStatus, compare_pair
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of

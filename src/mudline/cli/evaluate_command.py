@@ -21,7 +21,8 @@ from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation
 from mudline.cli.inputs import GivenDeck
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option, write_plot
 from mudline.cli.result_files import beside, require_library, result_files
-from mudline.cli.streams import Progress, View, emit, emit_json, notify, notify_diagnostics, notify_some, refusing
+from mudline.cli.streams import emit, emit_json, notify, notify_diagnostics, notify_some, refusing
+from mudline.cli.view import Progress, View
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
 from mudline.model.results.forms import FORMS, TABLES, Sink, plan_rows

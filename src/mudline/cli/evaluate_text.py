@@ -15,7 +15,7 @@ from mudline.basics.display import DisplayColumn, DisplayTable, number, text
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import LINES, NODES, STEPS, shown, time_unit
 from mudline.basics.short_repr import counted
-from mudline.cli.streams import View
+from mudline.cli.view import View
 from mudline.model.contact import ContactResult, Plan
 from mudline.model.contact.columns import ResultColumn
 from mudline.model.contact.lines import LineSummary

@@ -11,7 +11,8 @@ from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import deliver
 from mudline.cli.inputs import GivenDecks, each_deck, takes_decks
-from mudline.cli.streams import Progress, View, notify
+from mudline.cli.streams import notify
+from mudline.cli.view import Progress, View
 from mudline.editing.formatting.document import FormatError
 
 _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mudline.basics.files import alone_at, recording_looks
+from mudline.basics.short_repr import counted
 from mudline.checks.configuration import CallerSettings
 from mudline.checks.engine import LintSettings
 from mudline.checks.registry import plugin_files
@@ -19,7 +20,8 @@ from mudline.checks.settings import Settings
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
-from mudline.cli.streams import Progress, View, counted, naming, notify, refusing, require
+from mudline.cli.streams import naming, notify, refusing, require
+from mudline.cli.view import Progress, View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.archive.rows import Rows, rows_of
 

@@ -22,7 +22,8 @@ from mudline.basics.files import alone_at, write_atomically
 from mudline.basics.overwriting import outputs, reading
 from mudline.checks.configuration import Configured
 from mudline.cli import WRONG_USAGE, options
-from mudline.cli.streams import Progress, naming, notify, notify_diagnostics, reason
+from mudline.cli.streams import naming, notify, notify_diagnostics, reason
+from mudline.cli.view import Progress
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.deck.searching import Search, is_deck, is_key_file

@@ -13,11 +13,13 @@ import click
 
 from mudline.basics.installed import may_declare
 from mudline.basics.overwriting import claim
+from mudline.basics.short_repr import counted
 from mudline.checks.configuration import Configured
 from mudline.checks.output import TEXT, form_module, form_names, visible
 from mudline.checks.pages import GROUP
 from mudline.cli.inputs import Input
-from mudline.cli.streams import Line, Part, View, counted, emit, notify, say, write_text
+from mudline.cli.streams import emit, notify, say, write_text
+from mudline.cli.view import Line, Part, View
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity, Span
 from mudline.language.syntax.source import Source
 

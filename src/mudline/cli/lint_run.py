@@ -15,11 +15,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mudline.basics.outside import project_of
+from mudline.basics.short_repr import counted
 from mudline.checks.configuration import CallerSettings, Configuration, Configured
 from mudline.checks.report import FileReport
 from mudline.cli.inputs import Input, Inputs, many_files
 from mudline.cli.lint_report import LintReport
-from mudline.cli.streams import Progress, View, counted, naming, notify, refusing, write_text
+from mudline.cli.streams import naming, notify, refusing, write_text
+from mudline.cli.view import Progress, View
 from mudline.language.deck.forms import form_of
 from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
 from mudline.tools.running.remembered import Memory

@@ -13,7 +13,8 @@ from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import GivenDecks, Input, Inputs, each_deck, reading_named_files, require_text, takes_decks
-from mudline.cli.streams import Progress, View, emit_deck, notify, write_bytes
+from mudline.cli.streams import emit_deck, notify, write_bytes
+from mudline.cli.view import Progress, View
 from mudline.editing.migration.migrating import Verification
 from mudline.editing.migration.refusals import Continuations
 from mudline.language.deck.loading import load_bytes

@@ -11,7 +11,8 @@ import click
 
 from mudline.basics import files
 from mudline.basics.overwriting import claim
-from mudline.cli.streams import View, refusing
+from mudline.cli.streams import refusing
+from mudline.cli.view import View
 
 Command = Callable[..., int]
 

@@ -11,7 +11,8 @@ import click
 
 from mudline.basics.files import PLOT_FORMS, suffix_of
 from mudline.cli.options import OUTPUT_FILE, OWN, Command, form_of_file, option
-from mudline.cli.streams import View, require, writing
+from mudline.cli.streams import require, writing
+from mudline.cli.view import View
 
 
 def plot_option(what: str, group: str = OWN) -> Callable[[Command], Command]:

@@ -15,7 +15,8 @@ from mudline.checks.engine import LintSettings
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDecks, Input, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
-from mudline.cli.streams import Progress, View, emit_json, refusing, require, write_text
+from mudline.cli.streams import emit_json, refusing, require, write_text
+from mudline.cli.view import Progress, View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, DeckFile, Look, LookError, PageHead
 from mudline.tools.reporting.pages import Pages, Wanted, make_page

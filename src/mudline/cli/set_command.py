@@ -16,7 +16,8 @@ from mudline.checks.rules.slips import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, each_deck, require_text, takes_decks
-from mudline.cli.streams import Progress, View, emit, emit_deck, notify, notify_diagnostics, refusing
+from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics, refusing
+from mudline.cli.view import Progress, View
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
 from mudline.editing.assignment.fields import ConditionError, FieldTarget, parse_condition, target_of
 from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment

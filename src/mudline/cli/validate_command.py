@@ -21,7 +21,8 @@ from mudline.checks.verdict import Verdict, judge_content
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_report import print_findings
-from mudline.cli.streams import Progress, View, emit
+from mudline.cli.streams import emit
+from mudline.cli.view import Progress, View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.language.diagnostics import Coverage, Diagnostic
 from mudline.language.syntax.source import Source
