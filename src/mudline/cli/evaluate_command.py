@@ -149,7 +149,7 @@ def _evaluate(
         _notify_before(evaluation, comparison)
     shown = "" if output else wanted.form
     screen: Screen | SeriesSummary | None = None
-    if shown == "text" and wanted.summary_only:
+    if shown == "text" and wanted.summary_only and evaluation.time is not None:
         screen = SeriesSummary(evaluation, "totals", "summary")
     elif shown == "text":
         screen = Screen(evaluation, wanted.table, view, every=wanted.every)
