@@ -104,7 +104,7 @@ def command(
         return selected.code
     once: dict[str, Input] = {}
     for file in selected.files:  # a file may be given by several names
-        once.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
+        once.setdefault(os.path.abspath(file.place), file)  # noqa: PTH100 - links stay what they are called
     selected.files = list(once.values())
     common, cases = named_cases(selected.files, form, inputs.tables)
     folder = Path(output)

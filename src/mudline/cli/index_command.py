@@ -58,7 +58,7 @@ def command(
             raise click.UsageError(f"-o {output}: an archive is a folder outside of the decks")
         check_folder(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        inputs.files = [file for file in inputs.files if not _is_inside(file.path or file.name, folder)]
+        inputs.files = [file for file in inputs.files if not _is_inside(file.place, folder)]
         searched = [os.path.abspath(path) for path in decks.paths if not inputs.code]  # noqa: PTH100 - as in places
         waiting = partial(notify, f"{folder.as_posix()}: waiting for another run")
         with alone_at(folder / LOCK, waiting, made=True), closing(Archive(folder)) as archive:
@@ -84,14 +84,14 @@ def read_deck(data: bytes, name: str, settings: LintSettings, folder: Path | Non
 
 def _index(inputs: Inputs, settings: Settings, archive: Archive, view: View, jobs: int) -> set[str]:
     """Read new and changed decks; return the places of all decks. A deck that cannot be opened stays in the archive."""
-    files, plugins = {archive.place(file.path or file.name): file for file in inputs.files}, plugin_files()
+    files, plugins = {archive.place(file.place): file for file in inputs.files}, plugin_files()
     inputs.files = list(files.values())
 
     def prepared(file: Input) -> tuple[tuple[str, str], tuple[bytes, str, LintSettings, Path | None] | None]:
-        place, data, own = archive.place(file.path or file.name), file.read(), settings.of(file.path or file.name)
+        place, data, own = archive.place(file.place), file.read(), settings.of(file.place)
         codes = tuple(rule.code.code for rule in own.rules)
         key = archive.memory.key(place, repr((codes, replace(own, rules=(), unfixable=frozenset()))), data)
-        given = (data, PurePath(file.path or file.name).name, own, file.folder)
+        given = (data, PurePath(file.place).name, own, file.folder)
         return (place, key), given if archive.is_new(place, key) else None
 
     with closing(many_files(inputs, prepared, read_deck, Progress(len(inputs.files), view), jobs=jobs)) as results:

@@ -65,6 +65,11 @@ class Input(NamedTuple):
     encoding: str = ""
 
     @property
+    def place(self) -> str:
+        """Path of the file; for standard input the name under which it is reported."""
+        return self.path or self.name
+
+    @property
     def folder(self) -> Path | None:
         """Folder of files that the deck names; None for standard input, which may name none."""
         if self.path is None:
@@ -125,7 +130,7 @@ class Inputs:
 
         A file whose content is no longer `read` stays unchanged: somebody else has written it.
         """
-        path = Path(file.path or file.name)
+        path = Path(file.place)
         try:
             with alone_at(path):
                 current = file.read()
@@ -195,7 +200,7 @@ class GivenDeck(NamedTuple):
         if os.path.isdir(self.path):  # noqa: PTH112 - as above
             raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
         file = _single(self.path, self.stdin_name)
-        file = file._replace(encoding=self.encoding or Configured().encoding(file.path or file.name))
+        file = file._replace(encoding=self.encoding or Configured().encoding(file.place))
         with naming(self.path):
             return file.read(), file
 
@@ -258,7 +263,7 @@ class GivenDecks(NamedTuple):
             elif given == STDIN or not (force_exclude and own.excludes(given)):
                 files.append(_single(given, self.stdin_name))
         for file in dict.fromkeys(files):
-            inputs.files.append(file._replace(encoding=self.encoding or own.encoding(file.path or file.name)))
+            inputs.files.append(file._replace(encoding=self.encoding or own.encoding(file.place)))
             if file.path is not None:
                 reading(file.path)
         return inputs

@@ -84,7 +84,7 @@ class LintReport:
 
     def add(self, file: Input, data: bytes, findings: list[Diagnostic], fixed: int) -> None:
         """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
-        name, limit = file.name, Severity(self.wanted.fail_on or self.configured.of(file.path or file.name).fail_on)
+        name, limit = file.name, Severity(self.wanted.fail_on or self.configured.of(file.place).fail_on)
         self.names.append(name)
         self.found += findings
         self.fixed += fixed

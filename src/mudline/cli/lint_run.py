@@ -86,7 +86,7 @@ def lint_files(inputs: Inputs, settings: Callable[[], Settings], report: LintRep
         key = "" if memory is None or file.path is None else key_of(memory, report.configured, file, data)
         if memory is not None and key and (held := memory.get(key)) is not None:
             return (file, data, "", remembered(held, file.name)), None
-        return (file, data, key, None), (file.name, data, settings().of(file.path or file.name), file.folder)
+        return (file, data, key, None), (file.name, data, settings().of(file.place), file.folder)
 
     recorded = _baseline(wanted.baseline, recording=wanted.recording)
     differs, documents = False, 0
@@ -104,10 +104,9 @@ def lint_files(inputs: Inputs, settings: Callable[[], Settings], report: LintRep
                 content, result = _delivered(inputs, file, data, result, settings(), report.view, diff=wanted.diff)
             findings = list(result.found)
             if recorded is not None:
-                path = file.path or file.name
                 if wanted.recording:
-                    recorded.record(findings, content, path)
-                findings = recorded.unknown(findings, content, path)
+                    recorded.record(findings, content, file.place)
+                findings = recorded.unknown(findings, content, file.place)
             report.add(file, content, findings, len(result.fixed))
             report.coverage.add(result.coverage)
     if memory is not None:
@@ -137,7 +136,7 @@ def _delivered(
     content = data if result.changed is None else result.changed
     if deliver(inputs, file, data, content, view, diff=diff):
         return content, result
-    unfixed = replace(settings.of(file.path or file.name), fixing=Fixing.NONE)
+    unfixed = replace(settings.of(file.place), fixing=Fixing.NONE)
     return data, lint_one(file.name, data, unfixed, file.folder)
 
 

@@ -90,7 +90,7 @@ def command(
     contents = []
 
     def prepared(file: Input) -> tuple[Input, tuple[DeckFile, LintSettings, Wanted]]:
-        own = settings.of(file.path or file.name)
+        own = settings.of(file.place)
         return file, (DeckFile(file.read(), file.name, file.folder), own, (names, document, look, rest_shape))
 
     results = many_files(inputs, prepared, make_page, Progress(len(inputs.files), view), jobs=jobs)
