@@ -34,7 +34,7 @@ from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.result_files import is_installed, require_library
 from mudline.cli.streams import emit, emit_json, make_folder, notify, write_text, writing
-from mudline.cli.view import Progress, View
+from mudline.cli.view import View
 from mudline.model.results.cases import CASES, CaseSummary, worst_first, write_parquet
 from mudline.tools.running.executors import check_address
 from mudline.tools.running.remembered import Memory, state
@@ -175,7 +175,7 @@ def _evaluated(
 
     done: dict[Input, Done] = {}
     taken = 0
-    results = many_files(decks, prepared, evaluate_case, Progress(len(cases), view), jobs=jobs, scheduler=scheduler)
+    results = many_files(decks, prepared, evaluate_case, view, jobs=jobs, scheduler=scheduler)
     try:
         with closing(results):
             for (file, key, near, known), result in results:

@@ -24,7 +24,7 @@ from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, Input, Inputs, many_files
 from mudline.cli.streams import emit, notify_diagnostics
-from mudline.cli.view import Part, Progress, View
+from mudline.cli.view import Part, View
 from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckPair, DeckStatus, compare_pair
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
@@ -179,17 +179,14 @@ def _compared(
     """
     inputs = Inputs([Input(pair.before or pair.name, pair.before) for pair in pairs])
     pair_of, done = dict(zip(inputs.files, pairs, strict=True)), dict[Input, ComparedDeck]()
-    progress = Progress(len(pairs), view)
 
     def prepared(file: Input) -> tuple[Input, tuple[DeckPair, float, bool, str | None]]:
         return file, (pair_of[file], *options)
 
-    with closing(many_files(inputs, prepared, compare_pair, progress, jobs=jobs)) as results:
+    with closing(many_files(inputs, prepared, compare_pair, view, jobs=jobs)) as results:
         for file, deck in results:
             if deck is not None:
                 done[file] = deck
-                if deck.why:
-                    progress.hide()
                 notify_diagnostics(deck.errors)
                 if deck.unread is not None:
                     inputs.fail(deck.why)

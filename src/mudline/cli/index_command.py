@@ -21,7 +21,7 @@ from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
 from mudline.cli.streams import naming, notify, refusing, require
-from mudline.cli.view import Progress, View
+from mudline.cli.view import View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.archive.rows import Rows, rows_of
 
@@ -94,7 +94,7 @@ def _index(inputs: Inputs, settings: Settings, archive: Archive, view: View, job
         given = (data, PurePath(file.place).name, own, file.folder)
         return (place, key), given if archive.is_new(place, key) else None
 
-    with closing(many_files(inputs, prepared, read_deck, Progress(len(inputs.files), view), jobs=jobs)) as results:
+    with closing(many_files(inputs, prepared, read_deck, view, jobs=jobs)) as results:
         for (place, key), read in results:
             if read is not None:
                 archive.put(place, key, read[0], (*read[1], *plugins))

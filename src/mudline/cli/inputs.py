@@ -23,7 +23,7 @@ from mudline.basics.overwriting import outputs, reading
 from mudline.checks.configuration import Configured
 from mudline.cli import WRONG_USAGE, options
 from mudline.cli.streams import naming, notify, notify_diagnostics, reason
-from mudline.cli.view import Progress
+from mudline.cli.view import Progress, View
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.deck.searching import Search, is_deck, is_key_file
@@ -302,10 +302,11 @@ def many_files(
     inputs: Inputs,
     prepared: Callable[[Input], tuple[_Item, tuple[*_Given] | None]],
     work: Callable[[*_Given], _Made],
-    progress: Progress,
+    view: View,
     *,
     jobs: int,
     scheduler: str | None = None,
+    bar: bool = True,
 ) -> Generator[tuple[_Item, _Made | None], None, None]:
     """Yield an item for each file with the result of `work`, run here, in other processes or by a scheduler's workers.
 
@@ -320,19 +321,20 @@ def many_files(
             try:
                 item, given = prepared(file)
             except OSError as error:
-                progress.hide()
                 inputs.unreadable(file, error)
                 progress.advance()
             else:
                 yield (file, item), given
 
-    with progress, closing(many(work, items(), len(inputs.files), jobs, scheduler)) as results:
+    with (
+        Progress(len(inputs.files), view, shown=bar) as progress,
+        closing(many(work, items(), len(inputs.files), jobs, scheduler)) as results,
+    ):
         for (file, item), result in results:
             if isinstance(result, Crash):
-                progress.hide()
                 inputs.undone[file] = f"internal error: {result.summary}"
                 inputs.fail(f"{file.name}: internal error, please report it: {result.summary}")
-                if progress.view.verbose:
+                if view.verbose:
                     notify(result.traceback)
             else:
                 yield item, result
@@ -340,7 +342,7 @@ def many_files(
 
 
 def each_deck(
-    inputs: Inputs, work: Callable[[Input, bytes], _Made], progress: Progress, *refusals: type[Exception]
+    inputs: Inputs, work: Callable[[Input, bytes], _Made], view: View, *refusals: type[Exception]
 ) -> Iterator[tuple[Input, bytes, _Made | None]]:
     """Yield each deck with its content and the result of `work`, made here, one after the other.
 
@@ -359,12 +361,11 @@ def each_deck(
         except refusing as error:
             return error
 
-    with closing(many_files(inputs, prepared, tried, progress, jobs=1)) as results:
+    with closing(many_files(inputs, prepared, tried, view, jobs=1)) as results:
         for (file, data), made in results:
             if not isinstance(made, Exception):
                 yield file, data, made
                 continue
-            progress.hide()
             if not isinstance(made, DeckError):
                 line = getattr(made, "line", None)
                 notify(f"{file.name}{f':{line}' if line else ''}: {made}")

@@ -21,7 +21,7 @@ from mudline.checks.report import FileReport
 from mudline.cli.inputs import Input, Inputs, many_files
 from mudline.cli.lint_report import LintReport
 from mudline.cli.streams import naming, notify, refusing, write_text
-from mudline.cli.view import Progress, View
+from mudline.cli.view import View
 from mudline.language.deck.forms import form_of
 from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
 from mudline.tools.running.remembered import Memory
@@ -91,8 +91,7 @@ def lint_files(inputs: Inputs, settings: Callable[[], Settings], report: LintRep
     recorded = _baseline(wanted.baseline, recording=wanted.recording)
     differs, documents = False, 0
     jobs = 1 if wanted.fixing else wanted.jobs  # another deck may continue a deck that is being fixed
-    progress = Progress(len(inputs.files), report.view, shown=False)
-    with closing(many_files(inputs, prepared, lint_one, progress, jobs=jobs)) as results:
+    with closing(many_files(inputs, prepared, lint_one, report.view, jobs=jobs, bar=False)) as results:
         for (file, data, key, known), linted in results:
             result = linted or known or FileReport(file.name, ())
             if memory is not None and key:

@@ -16,7 +16,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDecks, Input, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
 from mudline.cli.streams import emit_json, refusing, require, write_text
-from mudline.cli.view import Progress, View
+from mudline.cli.view import View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, DeckFile, Look, LookError, PageHead
 from mudline.tools.reporting.pages import Pages, Wanted, make_page
@@ -93,7 +93,7 @@ def command(
         own = settings.of(file.place)
         return file, (DeckFile(file.read(), file.name, file.folder), own, (names, document, look, rest_shape))
 
-    results = many_files(inputs, prepared, make_page, Progress(len(inputs.files), view), jobs=jobs)
+    results = many_files(inputs, prepared, make_page, view, jobs=jobs)
     with refusing(LookError, kind=click.ClickException), closing(results):
         for file, page in results:
             if page is not None:

@@ -6,7 +6,7 @@ import io
 import json
 import os
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
@@ -78,6 +78,8 @@ def emit_deck(data: bytes) -> None:
 
 def _write(pieces: Iterable[bytes]) -> None:
     sys.stdout.flush()
+    if sys.stdout.isatty():
+        erase()
     for piece in pieces:
         rest = memoryview(piece)
         while rest:  # an unbuffered stream may accept only a part
@@ -92,8 +94,19 @@ def encoded(text: str) -> bytes:
 # -------------------------------------------------------------------------------------------------- standard error
 
 
+DRAWN: list[Callable[[], None]] = []
+"""Erase what is drawn on the terminal for a moment, as the bar of a long run; called before anything is printed."""
+
+
+def erase() -> None:
+    """Erase what is drawn for a moment."""
+    for each in DRAWN:
+        each()
+
+
 def notify(message: str) -> None:
     """Print a note or an error to standard error."""
+    erase()
     click.echo(f"mudline: {visible_lines(message)}", err=True)
 
 
@@ -107,6 +120,8 @@ def notify_some(messages: Sequence[str], more: str) -> None:
 
 def notify_diagnostics(diagnostics: Sequence[Diagnostic], *, refused: bool = True) -> None:
     """Print the errors that make a deck unusable, or, unless `refused`, findings with their severity."""
+    if diagnostics:
+        erase()
     for finding in diagnostics[:SHOWN_ROWS]:
         place = visible(f"{finding.file}:{finding.line}:{finding.column}")
         severity = "error" if refused else finding.severity.value

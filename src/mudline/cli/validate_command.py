@@ -22,7 +22,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_report import print_findings
 from mudline.cli.streams import emit
-from mudline.cli.view import Progress, View
+from mudline.cli.view import View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.language.diagnostics import Coverage, Diagnostic
 from mudline.language.syntax.source import Source
@@ -62,8 +62,8 @@ def command(*, decks: GivenDecks, output_format: str, fail_on: str, no_outside: 
     """
     inputs = decks.collect(is_in_any_form)
     total, listing = ValidationTotal(), view.verbose or output_format == "json"
-    progress = Progress(len(inputs.files), view, shown=output_format == "text" or not sys.stdout.isatty())
-    with closing(_judged(inputs, (decks.units, no_outside, listing), total, progress, jobs)) as judged:
+    bar = output_format == "text" or not sys.stdout.isatty()
+    with closing(_judged(inputs, (decks.units, no_outside, listing), total, view, jobs, bar=bar)) as judged:
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
@@ -130,21 +130,19 @@ def judge_file(
 
 
 def _judged(
-    inputs: Inputs, options: tuple[str | None, bool, bool], total: ValidationTotal, progress: Progress, jobs: int
+    inputs: Inputs, options: tuple[str | None, bool, bool], total: ValidationTotal, view: View, jobs: int, *, bar: bool
 ) -> Generator[Judged, None, None]:
-    """Yield and count each readable deck. The bar is hidden while errors of a deck are printed."""
+    """Yield and count each readable deck."""
 
     def prepared(file: Input) -> tuple[bytes, tuple[Input, bytes, str | None, bool, bool]]:
         data = file.read()
         return data, (file, data, *options)
 
-    with closing(many_files(inputs, prepared, judge_file, progress, jobs=jobs)) as results:
+    with closing(many_files(inputs, prepared, judge_file, view, jobs=jobs, bar=bar)) as results:
         for data, result in results:
             if result is not None:
                 verdict, findings = result
                 total.add(verdict)
-                if findings:
-                    progress.hide()
                 yield verdict, findings, data
     total.unreadable = len(inputs.undone)
 

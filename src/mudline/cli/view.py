@@ -7,10 +7,10 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from time import monotonic
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, Self, TypeVar
 
 from mudline.basics.limits import SHOWN_ROWS
-from mudline.cli.streams import notify
+from mudline.cli.streams import DRAWN, erase, notify
 
 if TYPE_CHECKING:
     import rich.progress
@@ -40,6 +40,7 @@ class View(NamedTuple):
 
     def lines(self, lines: Iterable[Line]) -> None:
         """Print lines for people; without terminal and colour rich is not loaded, as that takes half of a short run."""
+        erase()
         if self.color == "always" or sys.stdout.isatty():
             printer = self.printer()
             for line in lines:
@@ -73,13 +74,13 @@ _PAUSE = 0.1
 
 
 class Progress(AbstractContextManager["Progress"]):
-    """Steps done out of a total, as a bar on standard error, which is hidden while anything else is printed.
+    """Steps done out of a total, as a bar on standard error, which is erased before anything else is printed.
 
     No bar is drawn in CI, or if standard error is not a terminal that can erase.
     """
 
     def __init__(self, total: int, view: View, *, shown: bool = True) -> None:
-        self.view = view
+        self._color = view.color
         self._total = total
         self._done = 0
         self._bar: rich.progress.Progress | None = None
@@ -87,8 +88,13 @@ class Progress(AbstractContextManager["Progress"]):
         may_draw = sys.stderr.isatty() and not (view.quiet or dumb or os.environ.get("CI"))
         self._due = monotonic() + DELAY if shown and total > 1 and may_draw else float("inf")
 
+    def __enter__(self) -> Self:
+        DRAWN.append(self._hide)
+        return self
+
     def __exit__(self, *_: object) -> None:
-        self.hide()
+        self._hide()
+        DRAWN.remove(self._hide)
 
     def advance(self, steps: int = 1) -> None:
         """Count one more step, or several."""
@@ -97,14 +103,14 @@ class Progress(AbstractContextManager["Progress"]):
             if self._bar is None:
                 from mudline.cli.printing import bar  # noqa: PLC0415 - large, and a bar is rare
 
-                self._bar = bar(self._total, self.view.color)
+                self._bar = bar(self._total, self._color)
             self._bar.update(self._bar.task_ids[0], completed=self._done)
             self._bar.start()
             self._bar.refresh()
             self._due = monotonic() + _PAUSE
 
-    def hide(self) -> None:
-        """Erase the bar so that other lines can be printed; a later step draws it again."""
+    def _hide(self) -> None:
+        """Erase the bar; a later step draws it again."""
         if self._bar:
             self._bar.stop()
 
