@@ -14,7 +14,7 @@ from mudline.api import Scene as PublicScene
 from mudline.api import read_positions
 from mudline.basics.overwriting import reading
 from mudline.checks.engine import naming_causes
-from mudline.cli.options import ABOVE_ZERO, Adding, gathered, input_option, option
+from mudline.cli.options import ABOVE_ZERO, Adding, flag, gathered, input_option, option
 from mudline.cli.streams import naming
 from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
@@ -129,13 +129,11 @@ _INPUTS = (
     ),
 )
 
-summary_only = click.option(
-    "--summary-only",
-    is_flag=True,
-    help="Of a long series, keep only extremes with their times, counts and envelopes.",
+summary_only = flag(
+    "--summary-only", help="Of a long series, keep only extremes with their times, counts and envelopes."
 )
 
-fail_on = click.option(
+fail_on = option(
     "--fail-on",
     type=click.Choice(["error", "warning"]),
     default="error",

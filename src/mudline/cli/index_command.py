@@ -30,8 +30,10 @@ if TYPE_CHECKING:
 
 
 @options.command("index")
-@click.option("-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; created if missing.")
-@click.option("--prune", is_flag=True, help="Also drop decks outside PATHS whose files no longer exist.")
+@options.option(
+    "-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; created if missing."
+)
+@options.flag("--prune", help="Also drop decks outside PATHS whose files no longer exist.")
 @options.config
 @options.isolated
 @options.jobs

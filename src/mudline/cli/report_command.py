@@ -37,7 +37,7 @@ from mudline.tools.reporting.pages import Pages, Wanted, make_page
     show_default=True,
     help="Write only these sections; study measures run times, which vary from run to run.",
 )
-@click.option("--rest-shape", is_flag=True, help="Evaluate contact at the resting shape of the deck.")
+@options.flag("--rest-shape", help="Evaluate contact at the resting shape of the deck.")
 @options.option("--title", metavar="TEXT", help="Title of the page (default: the *TITLE of the deck).")
 @options.option("--document", "number", metavar="TEXT", help="Number of the document.")
 @options.option("--revision", metavar="TEXT", help="Revision of the document.")
