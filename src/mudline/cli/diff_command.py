@@ -23,7 +23,7 @@ from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, Input, Inputs, many_files
-from mudline.cli.streams import emit, notify_diagnostics
+from mudline.cli.streams import emit, json_rows, notify_diagnostics
 from mudline.cli.view import Part, View
 from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckPair, DeckStatus, compare_pair
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
@@ -122,7 +122,7 @@ def command(
             "equivalent": comparison.equivalent,
             "spelling_differences": len(comparison.spelling),
         }
-        emit([*_json_lines(head, "differences", map(asdict, comparison.differences)), "\n}\n"])
+        emit([*json_rows(head, "differences", _in_lines(map(asdict, comparison.differences))), "\n}\n"])
     else:
         names = ("", "") if view.quiet or output_format == "markdown" else (first.file, second.file)
         lines = difference_lines(*names, comparison, view)
@@ -136,7 +136,7 @@ def _print_matrix(decks: Sequence[Deck], tolerance: float, *, strict: bool, outp
     names = [deck.file for deck in decks]
     if output_format == "json":
         head = {"format": MATRIX_FORMAT, "decks": names, "tolerance": tolerance}
-        emit([*_json_lines(head, "rows", map(asdict, rows)), "\n}\n"])
+        emit([*json_rows(head, "rows", _in_lines(map(asdict, rows))), "\n}\n"])
     elif output_format == "csv":
         emit(csv_lines([["group", "value", *names], *([row.group, row.where, *_cells(row.values)] for row in rows)]))
     elif rows:
@@ -214,14 +214,9 @@ def _print_folders(
 # ------------------------------------------------------------------------------------------------------------ JSON
 
 
-def _json_lines(head: Mapping[str, object], name: str, rows: Iterable[Mapping[str, object]]) -> Iterator[str]:
-    """Yield a JSON object up to the end of its last value, a list called `name` with a row on each line."""
-    yield json.dumps(head, indent=1, ensure_ascii=False).removesuffix("\n}") + f',\n "{name}": ['
-    comma = ""
-    for row in rows:
-        yield f"{comma}\n  {json.dumps(row, ensure_ascii=False, allow_nan=False)}"
-        comma = ","
-    yield "\n ]" if comma else "]"
+def _in_lines(rows: Iterable[Mapping[str, object]]) -> Iterator[str]:
+    """Yield each row as a line of JSON."""
+    return (json.dumps(row, ensure_ascii=False, allow_nan=False) for row in rows)
 
 
 def _folders_json(
@@ -238,7 +233,7 @@ def _folders_json(
         }
         for deck in decks
     )
-    yield from _json_lines(head, "decks", rows)
+    yield from json_rows(head, "decks", _in_lines(rows))
     summary = {status.value: counts[status] for status in DeckStatus}
     end = {"equivalent": counts[DeckStatus.EQUAL] == len(decks), "summary": summary}
     yield "," + json.dumps(end, indent=1, ensure_ascii=False).removeprefix("{") + "\n"

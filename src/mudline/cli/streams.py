@@ -6,7 +6,7 @@ import io
 import json
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
@@ -66,6 +66,15 @@ def emit_json(value: object, output: str | None = None) -> None:
         emit(pieces)
     else:
         write_text(Path(output), pieces)
+
+
+def json_rows(head: Mapping[str, object], name: str, rows: Iterable[str]) -> Iterator[str]:
+    """Yield a JSON object up to the end of its last value, a list called `name` of rows in JSON, each on a new line."""
+    mark = json.dumps({**head, name: []}, indent=1, ensure_ascii=False).removesuffix("]\n}")
+    for row in rows:
+        yield f"{mark}\n  {row}"
+        mark = ","
+    yield "\n ]" if mark == "," else f"{mark}]"
 
 
 def emit_deck(data: bytes) -> None:

@@ -21,7 +21,7 @@ from mudline.checks.verdict import Verdict, judge_content
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_report import print_findings
-from mudline.cli.streams import emit
+from mudline.cli.streams import emit, json_rows
 from mudline.cli.view import View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.language.diagnostics import Coverage, Diagnostic
@@ -152,13 +152,10 @@ def _judged(
 
 def _print_json(judged: Iterable[Judged], total: ValidationTotal) -> None:
     """Print one JSON object; each deck is written as soon as it is judged."""
-    mark = '{\n "decks": ['
-    for verdict, findings, _ in judged:
-        row = {**verdict.row(), "findings": [as_object(each) for each in findings]}
-        emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
-        mark = ","
-    end = "\n ]" if mark == "," else f"{mark}]"
-    emit([end, ',\n "total": ', indent(json.dumps(asdict(total), indent=1, ensure_ascii=False), " ").lstrip(), "\n}\n"])
+    rows = ({**verdict.row(), "findings": [as_object(each) for each in findings]} for verdict, findings, _ in judged)
+    texts = (indent(json.dumps(row, indent=1, ensure_ascii=False), "  ").lstrip() for row in rows)
+    emit(json_rows({}, "decks", texts))
+    emit([",", json.dumps({"total": asdict(total)}, indent=1, ensure_ascii=False).removeprefix("{"), "\n"])
 
 
 def _print_text(judged: Iterable[Judged], total: ValidationTotal, view: View) -> None:
