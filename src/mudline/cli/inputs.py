@@ -312,8 +312,8 @@ def many_files(
 
     `prepared` returns the item of a file and the arguments of `work`, or None if there is no work. It is called when
     the file is due, and raises OSError if the file cannot be read. Files that cannot be read, or for which the program
-    itself fails, are reported and left out; `inputs` records them and the exit code. Close the generator to end the
-    processes as soon as the command ends. Raises RunError.
+    itself fails, are reported and left out; `inputs` records them and the exit code. A `bar` shows a long run. Close
+    the generator to end the processes as soon as the command ends. Raises RunError.
     """
 
     def items() -> Iterator[tuple[tuple[Input, _Item], tuple[*_Given] | None]]:
