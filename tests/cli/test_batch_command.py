@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import multiprocessing
 import signal
 from collections.abc import Callable, Sequence
@@ -141,8 +142,11 @@ def test_summary_only_writes_what_evaluate_does(two: str, folder: Path) -> None:
     assert rows(two, *options, "--form", "json")["a"]["steps"] == 3
     assert run("evaluate", "decks/a.keyxm", *options, "-q", "-o", "one.json").code == 0
     assert Path("one.json").read_bytes() == Path("out/a.json").read_bytes()
-    state = rows(two, "--positions", "state.npy", "--summary-only", code=1)
-    assert state["a"]["reason"] == "--summary-only is for time steps: state.npy is one state"
+    state = rows(two, "--positions", "state.npy", "--summary-only", "--form", "json")["a"]
+    summary = json.loads(Path("out/a.json").read_text(encoding="utf-8"))
+    assert_fits(summary, "series")
+    assert (state["steps"], summary["steps"], summary["positions"]) == (1, 1, "file")
+    assert (summary["summary"][0]["reaction_least"], state["reaction"]) == (state["reaction"],) * 2
 
 
 # ------------------------------------------------------------------------------------------------------- exit codes
@@ -163,7 +167,6 @@ def test_gitignore_hides_decks(four: str, folder: Path) -> None:
         (["--positions", "{name.csv"], "--positions {name.csv: not a pattern: expected '}' before end of string"),
         (["--positions", "nowhere.csv"], "nowhere.csv: no such file or directory"),
         (["--time-step", "0"], "--time-step is 0.0: it must be greater than 0"),
-        (["--summary-only"], "--summary-only is for time steps: give a series with --positions"),
         (["-o", "decks/a.keyxm"], "decks/a.keyxm: cannot be created: file exists"),
         (["--form", "xlsx"], "Invalid value for '--form': 'xlsx' is not one of 'csv', 'json', 'npz', 'parquet'."),
     ],

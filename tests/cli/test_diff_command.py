@@ -5,12 +5,15 @@ from __future__ import annotations
 import os
 from html import unescape
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import mudline
 from mudline.cli import diff_command
 from mudline.cli.diff_command import code, fenced
+from mudline.editing.comparison import decks
+from mudline.language.deck.model import Deck
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
@@ -118,6 +121,25 @@ def test_a_file_of_a_folder_that_cannot_be_opened(place: Place, monkeypatch: pyt
     assert ran.out == "! deck.keyxm: cannot be compared\n2 decks: 1 equal, 1 cannot be compared\n"
     (one,) = [each for each in mudline.diff("old", "new").decks if each.status == "failed"]
     assert (one.name, one.why) == ("deck.keyxm", "new/deck.keyxm: permission denied")
+
+
+def test_a_fault_of_the_program_in_one_of_two_folders(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("old/deck.keyxm", "new/deck.keyxm", "old/equal.keyxm", "new/equal.keyxm"):
+        place(CLEAN, name)
+    compared = decks.compare_decks
+
+    def failing(first: Deck, *given: Any, **more: Any) -> decks.Comparison:  # noqa: ANN401 - as the function
+        if first.file == "old/deck.keyxm":
+            raise IndexError("a fault")
+        return compared(first, *given, **more)
+
+    monkeypatch.setattr(decks, "compare_decks", failing)
+    ran = run("diff", "old", "new", "--output-format", "json")
+    found = ran.json()
+    assert_fits(found, "diff")
+    assert ran.err.startswith("mudline: old/deck.keyxm: internal error, please report it: IndexError: a fault")
+    assert (ran.code, found["equivalent"], found["summary"]["failed"]) == (2, False, 1)
+    assert found["decks"][0]["why"].startswith("internal error: IndexError: a fault")
 
 
 def test_folders_without_a_deck(folder: Path, place: Place) -> None:

@@ -48,7 +48,7 @@ def test_fault_in_a_late_step_leaves_no_file(place: Place, long: str, folder: Pa
 
 
 def test_bar_on_a_terminal(place: Place, long: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.cli.streams.DELAY", 0.0)
+    monkeypatch.setattr("mudline.cli.view.DELAY", 0.0)
     monkeypatch.delenv("CI", raising=False)
     options = ("evaluate", place(), "--positions", long, "-o", "out.npz")
     assert "/12000" in run(*options, terminal=True).err

@@ -121,19 +121,24 @@ def test_terminal_shows_what_a_whole_run_does(place: Place) -> None:
 
 
 @pytest.mark.usefixtures("long")
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (("--summary-only",), "--summary-only is for time steps: give a series with --positions"),
-        (("--summary-only", "--positions", "state.npy"), "--summary-only is for time steps: state.npy is one state"),
-        ((*TIMED, "--summary-only", "--plot", "a.png"), "--plot is not for --summary-only: leave one of them out"),
-    ],
-)
-def test_options_that_do_not_fit(place: Place, folder: Path, options: tuple[str, ...], message: str) -> None:
-    np.save(folder / "state.npy", np.array([[0.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 20.0, 0.0]]))
-    outcome = run("evaluate", place(), *options)
+def test_a_plot_of_a_summary_is_refused(place: Place) -> None:
+    outcome = run("evaluate", place(), *TIMED, "--summary-only", "--plot", "a.png")
     assert (outcome.code, outcome.out) == (2, "")
-    assert message in outcome.err
+    assert "--plot is not for --summary-only: leave one of them out" in outcome.err
+
+
+@pytest.mark.parametrize("positions", [(), ("--positions", "state.npy")])
+def test_one_state_is_a_series_of_one_step(place: Place, folder: Path, positions: tuple[str, ...]) -> None:
+    np.save(folder / "state.npy", np.array([[-0.1, 0.0, 0.0], [-0.1, 10.0, 0.0], [-0.1, 20.0, 0.0]]))
+    given = ("evaluate", place(), *positions)
+    assert run(*given, "--summary-only").out == run(*given).out
+    state = run(*given, "--output-format", "json").json()
+    summary = run(*given, "--summary-only", "--output-format", "json").json()
+    assert_fits(summary, "series")
+    assert (summary["steps"], summary["positions"]) == (1, state["positions"])
+    assert "time" not in summary["totals"][0]
+    for side in ("least", "largest"):
+        assert [row[f"force_{side}"] for row in summary["elements"]] == [row["force"] for row in state["elements"]]
 
 
 # ----------------------------------------------- touchdown of lines, and their least and largest figures over all steps

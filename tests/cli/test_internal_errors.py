@@ -16,6 +16,12 @@ from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 LOOPS: dict[str, tuple[str, str, Callable[..., str], list[str]]] = {
     "lint": ("checks.fixing", "covered_findings", lambda _, name, *__: name, ["--output-format", "json"]),
     "validate": ("checks.verdict", "judge", lambda context: context.deck.file, ["--output-format", "json"]),
+    "diff": (
+        "editing.comparison.decks",
+        "compare_decks",
+        lambda deck, *_: deck.file,
+        ["decks", "--output-format", "json"],
+    ),
     "report": ("tools.reporting.pages", "report_on", lambda given, *_: given.name, ["--output-format", "json"]),
     "batch": (
         "cli.batch_cases",
@@ -27,7 +33,7 @@ LOOPS: dict[str, tuple[str, str, Callable[..., str], list[str]]] = {
 """A function that each command calls for a deck, by module and name, how it gets the name of the deck, and options."""
 
 
-@pytest.mark.parametrize(("command", "jobs"), [*((command, "1") for command in LOOPS), ("lint", "2")])
+@pytest.mark.parametrize(("command", "jobs"), [*((command, "1") for command in LOOPS), ("lint", "2"), ("diff", "2")])
 def test_an_internal_error_loses_no_other_deck(
     place: Place, monkeypatch: pytest.MonkeyPatch, command: str, jobs: str
 ) -> None:

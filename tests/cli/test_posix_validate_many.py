@@ -11,7 +11,7 @@ from unittest.mock import patch
 import pytest
 
 from mudline.__main__ import main
-from mudline.cli import streams
+from mudline.cli import view
 from mudline.cli.inputs import Input
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, Stream, assert_fits, run
@@ -41,8 +41,8 @@ def decks(place: Place, folder: Path) -> str:
 @pytest.fixture
 def _bar(monkeypatch: pytest.MonkeyPatch) -> None:
     """A bar from the first deck on, as in a long run."""
-    monkeypatch.setattr(streams, "DELAY", 0.0)
-    monkeypatch.setattr(streams, "_PAUSE", 0.0)
+    monkeypatch.setattr(view, "DELAY", 0.0)
+    monkeypatch.setattr(view, "_PAUSE", 0.0)
     monkeypatch.delenv("CI", raising=False)
 
 

@@ -17,10 +17,12 @@ import click
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, Value, text
 from mudline.basics.files import recording_looks
 from mudline.basics.quantities import shown
+from mudline.basics.short_repr import counted
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
 from mudline.cli.result_files import beside, result_files
-from mudline.cli.streams import UnwrittenError, View, counted, reason, refusing
+from mudline.cli.streams import UnwrittenError, reason, refusing
+from mudline.cli.view import View
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.model.results.cases import CASES, CaseSummary, case_summary
@@ -61,7 +63,7 @@ def named_cases(files: Sequence[Input], form: str, tables: Sequence[str] = TABLE
 
     A result file has the name of the deck without its suffix. Decks that differ only in their suffix keep it.
     """
-    paths = [os.path.abspath(file.path or file.name) for file in files]  # noqa: PTH100 - links stay what they are called
+    paths = [os.path.abspath(file.place) for file in files]  # noqa: PTH100 - links stay what they are called
     try:
         common = os.path.commonpath([os.path.dirname(path) for path in paths])  # noqa: PTH120 - as above
     except ValueError as error:
@@ -105,7 +107,7 @@ def positions_of(case: BatchCase, given: str | None) -> str | None:
         return given
     if Path(given).is_dir():
         return _in_folder(case, given)
-    folder = os.path.dirname(case.file.path or case.file.name) or "."  # noqa: PTH120 - as it was given
+    folder = os.path.dirname(case.file.place) or "."  # noqa: PTH120 - as it was given
     path = given.replace("{name}", case.name).replace("{folder}", folder)
     if not Path(path).is_file():
         raise click.ClickException(f"its positions were not found: {path}")
@@ -142,7 +144,7 @@ class Order(NamedTuple):
         file, given = self.case.file, self.inputs
         positions, elements = (path and os.path.abspath(path) for path in (given.positions, given.elements))  # noqa: PTH100 - links stay what they are called
         return self._replace(
-            case=replace(self.case, file=file._replace(path=os.path.abspath(file.path or file.name))),  # noqa: PTH100 - as above
+            case=replace(self.case, file=file._replace(path=os.path.abspath(file.place))),  # noqa: PTH100 - as above
             inputs=replace(given, positions=positions, elements=elements),
             output=self.output.absolute(),
         )

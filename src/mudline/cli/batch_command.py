@@ -16,6 +16,7 @@ from mudline.basics.files import remove_left
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.overwriting import claim, reading
 from mudline.basics.quantities import csv_lines
+from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.batch_cases import (
     SUMMARY,
@@ -32,7 +33,8 @@ from mudline.cli.batch_cases import (
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.result_files import is_installed, require_library
-from mudline.cli.streams import Progress, View, counted, emit, emit_json, make_folder, notify, write_text, writing
+from mudline.cli.streams import emit, emit_json, make_folder, notify, write_text, writing
+from mudline.cli.view import View
 from mudline.model.results.cases import CASES, CaseSummary, worst_first, write_parquet
 from mudline.tools.running.executors import check_address
 from mudline.tools.running.remembered import Memory, state
@@ -102,7 +104,7 @@ def command(
         return selected.code
     once: dict[str, Input] = {}
     for file in selected.files:  # a file may be given by several names
-        once.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
+        once.setdefault(os.path.abspath(file.place), file)  # noqa: PTH100 - links stay what they are called
     selected.files = list(once.values())
     common, cases = named_cases(selected.files, form, inputs.tables)
     folder = Path(output)
@@ -173,7 +175,7 @@ def _evaluated(
 
     done: dict[Input, Done] = {}
     taken = 0
-    results = many_files(decks, prepared, evaluate_case, Progress(len(cases), view), jobs=jobs, scheduler=scheduler)
+    results = many_files(decks, prepared, evaluate_case, view, jobs=jobs, scheduler=scheduler)
     try:
         with closing(results):
             for (file, key, near, known), result in results:

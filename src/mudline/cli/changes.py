@@ -8,7 +8,8 @@ from difflib import Match, SequenceMatcher
 
 from mudline.checks.output import visible, visible_lines
 from mudline.cli.inputs import Input, Inputs
-from mudline.cli.streams import View, emit, emit_deck
+from mudline.cli.streams import emit, emit_deck
+from mudline.cli.view import View
 from mudline.language.syntax.source import Source
 
 _LONG = 2000

@@ -12,7 +12,7 @@ import click
 from mudline.checks.configuration import DEFAULTS, Configured
 from mudline.checks.output import visible
 from mudline.cli import DONE, options
-from mudline.cli.streams import emit
+from mudline.cli.streams import emit, emit_json
 
 
 @options.command("config")
@@ -35,7 +35,7 @@ def command(*, path: str, config: str | None, isolated: bool, output_format: str
         else:
             rows.append((key, default, "default"))
     if output_format == "json":
-        emit([json.dumps([dict(zip(("key", "value", "from"), row, strict=True)) for row in rows], indent=1), "\n"])
+        emit_json([dict(zip(("key", "value", "from"), row, strict=True)) for row in rows])
     else:
         emit(
             f"{key} = {visible(json.dumps(value, ensure_ascii=False))}  # {visible(origin)}\n"

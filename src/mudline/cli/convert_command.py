@@ -12,7 +12,8 @@ from mudline.checks.context import LintContext
 from mudline.checks.engine import readable
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
-from mudline.cli.streams import View, emit, notify, require, write_text
+from mudline.cli.streams import emit, notify, require, write_text
+from mudline.cli.view import View
 from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.keyword_text import with_raw_lines
 from mudline.language.deck.loading import dump

@@ -14,7 +14,8 @@ from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.plots import Plot, plot_option, write_plot
-from mudline.cli.streams import View, emit, emit_json, notify, refusing
+from mudline.cli.streams import emit, emit_json, notify, refusing
+from mudline.cli.view import View
 from mudline.model.results.curve_rows import curve_rows, diameters_on, used_curves
 from mudline.model.scene.curves import ENDS, OF_CURRENT, OF_SEABED
 from mudline.model.scene.model import Scene, resolve

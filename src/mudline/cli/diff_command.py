@@ -8,6 +8,7 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import asdict
 from itertools import accumulate, groupby
 
@@ -15,15 +16,16 @@ import click
 import numpy as np
 
 from mudline.api import Deck, public
-from mudline.api.commands import diff, diff_matrix
+from mudline.api.commands import deck_pairs, diff, diff_matrix
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
-from mudline.cli import DONE, FOUND, WRONG_USAGE, options
-from mudline.cli.inputs import STDIN, GivenDeck
-from mudline.cli.streams import Part, View, emit, notify, notify_diagnostics
-from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckStatus
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.inputs import STDIN, GivenDeck, Input, Inputs, many_files
+from mudline.cli.streams import emit, json_rows, notify_diagnostics
+from mudline.cli.view import Part, View
+from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckPair, DeckStatus, compare_pair
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
 from mudline.language.deck.loading import load_bytes
@@ -61,6 +63,7 @@ _OF_DECKS = {
 @options.every_file
 @options.stdin_name
 @options.units
+@options.jobs
 @options.common
 def command(
     *,
@@ -73,6 +76,7 @@ def command(
     every_file: bool,
     stdin_name: str,
     units: str | None,
+    jobs: int,
     view: View,
 ) -> int:
     """Compare two decks, or the decks of two folders, semantically, whatever their formats, layout and order.
@@ -102,10 +106,11 @@ def command(
         raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
     if all(folders):
         try:
-            both = diff(before, after, tolerance=tolerance, strict=strict, units=units, gitignore=not every_file)
+            pairs = deck_pairs(before, after, gitignore=not every_file)
         except FileNotFoundError:
             raise click.ClickException(f"{before}, {after}: no deck in these folders") from None
-        return _print_folders((before, after), tolerance, both.decks, output_format, view)
+        results, code = _compared(pairs, (tolerance, strict, units), view, jobs)
+        return max(code, _print_folders((before, after), tolerance, results, output_format, view))
     first, second = _pair(before, after, stdin_name, units)
     comparison = diff(first, second, tolerance=tolerance, strict=strict)
     if output_format == "json":
@@ -117,7 +122,7 @@ def command(
             "equivalent": comparison.equivalent,
             "spelling_differences": len(comparison.spelling),
         }
-        emit([*_json_lines(head, "differences", map(asdict, comparison.differences)), "\n}\n"])
+        emit([*json_rows(head, "differences", _in_lines(map(asdict, comparison.differences))), "\n}\n"])
     else:
         names = ("", "") if view.quiet or output_format == "markdown" else (first.file, second.file)
         lines = difference_lines(*names, comparison, view)
@@ -131,7 +136,7 @@ def _print_matrix(decks: Sequence[Deck], tolerance: float, *, strict: bool, outp
     names = [deck.file for deck in decks]
     if output_format == "json":
         head = {"format": MATRIX_FORMAT, "decks": names, "tolerance": tolerance}
-        emit([*_json_lines(head, "rows", map(asdict, rows)), "\n}\n"])
+        emit([*json_rows(head, "rows", _in_lines(map(asdict, rows))), "\n}\n"])
     elif output_format == "csv":
         emit(csv_lines([["group", "value", *names], *([row.group, row.where, *_cells(row.values)] for row in rows)]))
     elif rows:
@@ -165,14 +170,36 @@ def _pair(before: str, after: str, stdin_name: str, units: str | None) -> tuple[
     return first, second
 
 
+def _compared(
+    pairs: Sequence[DeckPair], options: tuple[float, bool, str | None], view: View, jobs: int
+) -> tuple[list[ComparedDeck], int]:
+    """Compare the decks of two folders, and report what fails. Return the results, and an exit code for unread files.
+
+    A pair fails if a deck cannot be read or has errors, or if the program fails.
+    """
+    inputs = Inputs([Input(pair.before or pair.name, pair.before) for pair in pairs])
+    pair_of, done = dict(zip(inputs.files, pairs, strict=True)), dict[Input, ComparedDeck]()
+
+    def prepared(file: Input) -> tuple[Input, tuple[DeckPair, float, bool, str | None]]:
+        return file, (pair_of[file], *options)
+
+    with closing(many_files(inputs, prepared, compare_pair, view, jobs=jobs)) as results:
+        for file, deck in results:
+            if deck is not None:
+                done[file] = deck
+                notify_diagnostics(deck.errors)
+                if deck.unread is not None:
+                    inputs.fail(deck.why)
+    return [
+        done.get(file) or ComparedDeck(pair.name, DeckStatus.FAILED, crash=inputs.undone[file])
+        for file, pair in zip(inputs.files, pairs, strict=True)
+    ], inputs.code
+
+
 def _print_folders(
     folders: tuple[str, str], tolerance: float, decks: Sequence[ComparedDeck], output_format: str, view: View
 ) -> int:
     """Print the differences of the decks of two folders, and return the exit code."""
-    for deck in decks:
-        notify_diagnostics(deck.errors)
-        if deck.unread is not None:
-            notify(deck.why)
     counts = Counter(deck.status for deck in decks)
     if output_format == "json":
         emit(_folders_json(folders, tolerance, decks, counts))
@@ -181,22 +208,15 @@ def _print_folders(
         parts = [f"{counts[status]} {names[status]}" for status in DeckStatus if counts[status]]
         summary = f"{counted(len(decks), 'deck')}: {', '.join(parts)}"
         _print_lines(folders, folder_lines(decks, view), summary, output_format, view)
-    if any(deck.unread for deck in decks):
-        return WRONG_USAGE
     return DONE if counts[DeckStatus.EQUAL] == len(decks) else FOUND
 
 
 # ------------------------------------------------------------------------------------------------------------ JSON
 
 
-def _json_lines(head: Mapping[str, object], name: str, rows: Iterable[Mapping[str, object]]) -> Iterator[str]:
-    """Yield a JSON object up to the end of its last value, a list called `name` with a row on each line."""
-    yield json.dumps(head, indent=1, ensure_ascii=False).removesuffix("\n}") + f',\n "{name}": ['
-    comma = ""
-    for row in rows:
-        yield f"{comma}\n  {json.dumps(row, ensure_ascii=False, allow_nan=False)}"
-        comma = ","
-    yield "\n ]" if comma else "]"
+def _in_lines(rows: Iterable[Mapping[str, object]]) -> Iterator[str]:
+    """Yield each row as a line of JSON."""
+    return (json.dumps(row, ensure_ascii=False, allow_nan=False) for row in rows)
 
 
 def _folders_json(
@@ -213,7 +233,7 @@ def _folders_json(
         }
         for deck in decks
     )
-    yield from _json_lines(head, "decks", rows)
+    yield from json_rows(head, "decks", _in_lines(rows))
     summary = {status.value: counts[status] for status in DeckStatus}
     end = {"equivalent": counts[DeckStatus.EQUAL] == len(decks), "summary": summary}
     yield "," + json.dumps(end, indent=1, ensure_ascii=False).removeprefix("{") + "\n"

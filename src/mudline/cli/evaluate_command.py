@@ -17,17 +17,19 @@ from mudline.basics.short_repr import counted, listed_numbers
 from mudline.checks.verdict import errors_beside
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
-from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
+from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_series
 from mudline.cli.inputs import GivenDeck
-from mudline.cli.plots import Plot, numbers_of_elements, plot_option, write_plot
+from mudline.cli.plots import Plot, plot_option, write_plot
 from mudline.cli.result_files import beside, require_library, result_files
-from mudline.cli.streams import Progress, View, emit, emit_json, notify, notify_diagnostics, notify_some, refusing
+from mudline.cli.streams import emit, emit_json, notify, notify_diagnostics, notify_some, refusing
+from mudline.cli.view import Progress, View
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
 from mudline.model.results.forms import FORMS, TABLES, Sink, plan_rows
 from mudline.model.results.forms.text import text_writer
 from mudline.model.results.plot_data import PlotData
 from mudline.model.results.series import SERIES, SeriesSink, SeriesSummary
+from mudline.model.results.summary_tables import plan_table
 from mudline.model.results.warnings import ContactWarning, ContactWatch, caption
 
 
@@ -45,9 +47,21 @@ class Wanted(NamedTuple):
     summary_only: bool
 
 
+def _numbers_of_elements(_context: click.Context, _option: click.Parameter, text: str | None) -> tuple[int, ...]:
+    """Return the element numbers of `--plot-elements`, separated by commas; raises click.UsageError."""
+    numbers = []
+    for part in () if text is None else text.split(","):
+        try:
+            numbers.append(int(part))
+        except ValueError as error:
+            message = f"--plot-elements: {part.strip()!r} is not an element number; give numbers as 12,13"
+            raise click.UsageError(message) from error
+    return tuple(numbers)
+
+
 @options.command("evaluate")
 @takes_inputs("Read the positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
-@click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
+@options.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
 @options.output(
     group=options.OUTPUT,
     metavar=f"OUT.{'|'.join(FORMS)}",
@@ -56,11 +70,11 @@ class Wanted(NamedTuple):
 @options.output_option(
     "--plot-elements",
     metavar="N,M",
-    callback=numbers_of_elements,
+    callback=_numbers_of_elements,
     help="Draw the force over penetration of these elements of a series, by number.",
 )
 @plot_option("the results", group=options.OUTPUT)
-@click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
+@options.flag("--plan", "plan_only", help="Print what the deck needs and what is left out, and why.")
 @options.output_option(
     "--table",
     type=click.Choice(TABLES),
@@ -133,7 +147,7 @@ def _show_plan(prepared: Prepared, form: str, view: View) -> None:
     elif form == "csv":
         emit(csv_lines([("stage", "active", "why"), *(row.values() for row in rows)]))
     else:
-        print_plan(model.plan, view)
+        view.printer().table(plan_table(rows, model.plan.steps))
 
 
 def _evaluate(
@@ -148,7 +162,7 @@ def _evaluate(
         _notify_before(evaluation, comparison)
     shown = "" if output else wanted.form
     screen: Screen | SeriesSummary | None = None
-    if shown == "text" and wanted.summary_only:
+    if shown == "text" and wanted.summary_only and evaluation.time is not None:
         screen = SeriesSummary(evaluation, "totals", "summary")
     elif shown == "text":
         screen = Screen(evaluation, wanted.table, view, every=wanted.every)

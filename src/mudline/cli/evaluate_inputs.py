@@ -14,7 +14,7 @@ from mudline.api import Scene as PublicScene
 from mudline.api import read_positions
 from mudline.basics.overwriting import reading
 from mudline.checks.engine import naming_causes
-from mudline.cli.options import ABOVE_ZERO, Adding, gathered, input_option, option
+from mudline.cli.options import ABOVE_ZERO, Adding, flag, gathered, input_option, option
 from mudline.cli.streams import naming
 from mudline.language.deck.model import Deck
 from mudline.model.contact.arrays import Positions
@@ -48,8 +48,6 @@ class EvaluateInputs:
             raise click.UsageError("--columns is for positions from a CSV: give --positions too")
         if self.rest_shape and self.positions is not None:
             raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
-        if self.summary_only and self.positions is None:
-            raise click.UsageError("--summary-only is for time steps: give a series with --positions")
 
     @property
     def tables(self) -> Sequence[str]:
@@ -70,10 +68,7 @@ class EvaluateInputs:
 
             rest = rest_shape(scene)
             return evaluate_scene(scene, rest.positions, self.tension, at_rest=rest.sentences(scene.units))
-        evaluation = evaluate_scene(scene, self._placed(scene), self.tension)
-        if self.summary_only and evaluation.time is None:
-            raise click.UsageError(f"--summary-only is for time steps: {self.positions} is one state")
-        return evaluation
+        return evaluate_scene(scene, self._placed(scene), self.tension)
 
     def prepared(self, deck: Deck) -> Prepared:
         """Return the evaluator of a deck, for its plan. Raises DeckError, click.ClickException."""
@@ -134,13 +129,11 @@ _INPUTS = (
     ),
 )
 
-summary_only = click.option(
-    "--summary-only",
-    is_flag=True,
-    help="Of a long series, keep only extremes with their times, counts and envelopes.",
+summary_only = flag(
+    "--summary-only", help="Of a long series, keep only extremes with their times, counts and envelopes."
 )
 
-fail_on = click.option(
+fail_on = option(
     "--fail-on",
     type=click.Choice(["error", "warning"]),
     default="error",

@@ -1,4 +1,4 @@
-"""Evaluation for people: totals by law, contact, summaries of steps, the plan, a comparison."""
+"""Evaluation for people: totals by law, contact, summaries of steps, a comparison."""
 
 from __future__ import annotations
 
@@ -16,16 +16,15 @@ from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import LINES, NODES, STEPS, shown
 from mudline.basics.short_repr import counted
 from mudline.basics.units import UNITS
-from mudline.cli.streams import View
-from mudline.model.contact import ContactResult, Plan
+from mudline.cli.view import View
+from mudline.model.contact import ContactResult
 from mudline.model.contact.columns import ResultColumn
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.forms import plan_rows
 from mudline.model.results.series import SeriesSummary
-from mudline.model.results.summary_tables import law_table, plan_table, span, state_table, touchdown_table, weight_note
+from mudline.model.results.summary_tables import law_table, span, state_table, touchdown_table, weight_note
 from mudline.model.results.totals import (
     NOT_KNOWN,
     acted_on,
@@ -52,11 +51,6 @@ _MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows
 _FARTHER = "more lines, farther from touchdown: --table elements shows all, -o writes all"
 _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
-
-
-def print_plan(plan: Plan, view: View) -> None:
-    """Print the stages, whether they are active, and why."""
-    view.printer().table(plan_table(plan_rows(plan), plan.steps))
 
 
 class Screen:

@@ -11,7 +11,8 @@ from mudline.basics.short_repr import counted
 from mudline.checks.engine import readable
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import View, emit, make_folder, notify, notify_some, write_bytes, write_text
+from mudline.cli.streams import emit, make_folder, notify, notify_some, write_bytes, write_text
+from mudline.cli.view import View
 from mudline.editing.variations.files import MANIFEST, conflicts, lacking, manifest_text
 from mudline.editing.variations.planning import plan
 

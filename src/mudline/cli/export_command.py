@@ -12,7 +12,8 @@ from mudline.api.commands import export
 from mudline.basics.display import DisplayColumn, DisplayTable
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
-from mudline.cli.streams import View, emit_json, notify, write_text
+from mudline.cli.streams import emit_json, notify, write_text
+from mudline.cli.view import View
 from mudline.tools.exporting.report import ExportReport
 
 _TARGETS = ("moordyn", "orcaflex")

@@ -11,7 +11,8 @@ from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import deliver
 from mudline.cli.inputs import GivenDecks, each_deck, takes_decks
-from mudline.cli.streams import Progress, View, notify
+from mudline.cli.streams import notify
+from mudline.cli.view import View
 from mudline.editing.formatting.document import FormatError
 
 _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
@@ -29,10 +30,8 @@ def command(*, decks: GivenDecks, check: bool, diff: bool, force_exclude: bool, 
     is printed. A deck with an error is reported and left unchanged.
     """
     inputs = decks.collect(force_exclude=force_exclude)
-    progress, outcomes, shown = Progress(len(inputs.files), view), Counter[str](), check or diff
-    for file, data, new in each_deck(inputs, lambda file, data: formatted_file(data, file.name), progress, FormatError):
-        if new != data:
-            progress.hide()
+    outcomes, shown = Counter[str](), check or diff
+    for file, data, new in each_deck(inputs, lambda file, data: formatted_file(data, file.name), view, FormatError):
         if new is None or not deliver(inputs, file, data, new, view, check="would reformat" * check, diff=diff):
             outcomes[_FAILED] += 1
         elif file.path is not None or shown:

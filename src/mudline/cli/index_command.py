@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mudline.basics.files import alone_at, recording_looks
+from mudline.basics.short_repr import counted
 from mudline.checks.configuration import CallerSettings
 from mudline.checks.engine import LintSettings
 from mudline.checks.registry import plugin_files
@@ -19,7 +20,8 @@ from mudline.checks.settings import Settings
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
-from mudline.cli.streams import Progress, View, counted, naming, notify, refusing, require
+from mudline.cli.streams import naming, notify, refusing, require
+from mudline.cli.view import View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.archive.rows import Rows, rows_of
 
@@ -28,8 +30,10 @@ if TYPE_CHECKING:
 
 
 @options.command("index")
-@click.option("-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; created if missing.")
-@click.option("--prune", is_flag=True, help="Also drop decks outside PATHS whose files no longer exist.")
+@options.option(
+    "-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; created if missing."
+)
+@options.flag("--prune", help="Also drop decks outside PATHS whose files no longer exist.")
 @options.config
 @options.isolated
 @options.jobs
@@ -56,7 +60,7 @@ def command(
             raise click.UsageError(f"-o {output}: an archive is a folder outside of the decks")
         check_folder(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        inputs.files = [file for file in inputs.files if not _is_inside(file.path or file.name, folder)]
+        inputs.files = [file for file in inputs.files if not _is_inside(file.place, folder)]
         searched = [os.path.abspath(path) for path in decks.paths if not inputs.code]  # noqa: PTH100 - as in places
         waiting = partial(notify, f"{folder.as_posix()}: waiting for another run")
         with alone_at(folder / LOCK, waiting, made=True), closing(Archive(folder)) as archive:
@@ -82,17 +86,17 @@ def read_deck(data: bytes, name: str, settings: LintSettings, folder: Path | Non
 
 def _index(inputs: Inputs, settings: Settings, archive: Archive, view: View, jobs: int) -> set[str]:
     """Read new and changed decks; return the places of all decks. A deck that cannot be opened stays in the archive."""
-    files, plugins = {archive.place(file.path or file.name): file for file in inputs.files}, plugin_files()
+    files, plugins = {archive.place(file.place): file for file in inputs.files}, plugin_files()
     inputs.files = list(files.values())
 
     def prepared(file: Input) -> tuple[tuple[str, str], tuple[bytes, str, LintSettings, Path | None] | None]:
-        place, data, own = archive.place(file.path or file.name), file.read(), settings.of(file.path or file.name)
+        place, data, own = archive.place(file.place), file.read(), settings.of(file.place)
         codes = tuple(rule.code.code for rule in own.rules)
         key = archive.memory.key(place, repr((codes, replace(own, rules=(), unfixable=frozenset()))), data)
-        given = (data, PurePath(file.path or file.name).name, own, file.folder)
+        given = (data, PurePath(file.place).name, own, file.folder)
         return (place, key), given if archive.is_new(place, key) else None
 
-    with closing(many_files(inputs, prepared, read_deck, Progress(len(inputs.files), view), jobs=jobs)) as results:
+    with closing(many_files(inputs, prepared, read_deck, view, jobs=jobs)) as results:
         for (place, key), read in results:
             if read is not None:
                 archive.put(place, key, read[0], (*read[1], *plugins))

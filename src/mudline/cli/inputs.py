@@ -22,7 +22,8 @@ from mudline.basics.files import alone_at, write_atomically
 from mudline.basics.overwriting import outputs, reading
 from mudline.checks.configuration import Configured
 from mudline.cli import WRONG_USAGE, options
-from mudline.cli.streams import Progress, naming, notify, notify_diagnostics, reason
+from mudline.cli.streams import naming, notify, notify_diagnostics, reason
+from mudline.cli.view import Progress, View
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of
 from mudline.language.deck.searching import Search, is_deck, is_key_file
@@ -62,6 +63,11 @@ class Input(NamedTuple):
     name: str
     path: str | None
     encoding: str = ""
+
+    @property
+    def place(self) -> str:
+        """Path of the file; for standard input the name under which it is reported."""
+        return self.path or self.name
 
     @property
     def folder(self) -> Path | None:
@@ -124,7 +130,7 @@ class Inputs:
 
         A file whose content is no longer `read` stays unchanged: somebody else has written it.
         """
-        path = Path(file.path or file.name)
+        path = Path(file.place)
         try:
             with alone_at(path):
                 current = file.read()
@@ -194,7 +200,7 @@ class GivenDeck(NamedTuple):
         if os.path.isdir(self.path):  # noqa: PTH112 - as above
             raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
         file = _single(self.path, self.stdin_name)
-        file = file._replace(encoding=self.encoding or Configured().encoding(file.path or file.name))
+        file = file._replace(encoding=self.encoding or Configured().encoding(file.place))
         with naming(self.path):
             return file.read(), file
 
@@ -257,7 +263,7 @@ class GivenDecks(NamedTuple):
             elif given == STDIN or not (force_exclude and own.excludes(given)):
                 files.append(_single(given, self.stdin_name))
         for file in dict.fromkeys(files):
-            inputs.files.append(file._replace(encoding=self.encoding or own.encoding(file.path or file.name)))
+            inputs.files.append(file._replace(encoding=self.encoding or own.encoding(file.place)))
             if file.path is not None:
                 reading(file.path)
         return inputs
@@ -296,17 +302,18 @@ def many_files(
     inputs: Inputs,
     prepared: Callable[[Input], tuple[_Item, tuple[*_Given] | None]],
     work: Callable[[*_Given], _Made],
-    progress: Progress,
+    view: View,
     *,
     jobs: int,
     scheduler: str | None = None,
+    bar: bool = True,
 ) -> Generator[tuple[_Item, _Made | None], None, None]:
     """Yield an item for each file with the result of `work`, run here, in other processes or by a scheduler's workers.
 
     `prepared` returns the item of a file and the arguments of `work`, or None if there is no work. It is called when
     the file is due, and raises OSError if the file cannot be read. Files that cannot be read, or for which the program
-    itself fails, are reported and left out; `inputs` records them and the exit code. Close the generator to end the
-    processes as soon as the command ends. Raises RunError.
+    itself fails, are reported and left out; `inputs` records them and the exit code. A `bar` shows a long run. Close
+    the generator to end the processes as soon as the command ends. Raises RunError.
     """
 
     def items() -> Iterator[tuple[tuple[Input, _Item], tuple[*_Given] | None]]:
@@ -314,19 +321,20 @@ def many_files(
             try:
                 item, given = prepared(file)
             except OSError as error:
-                progress.hide()
                 inputs.unreadable(file, error)
                 progress.advance()
             else:
                 yield (file, item), given
 
-    with progress, closing(many(work, items(), len(inputs.files), jobs, scheduler)) as results:
+    with (
+        Progress(len(inputs.files), view, shown=bar) as progress,
+        closing(many(work, items(), len(inputs.files), jobs, scheduler)) as results,
+    ):
         for (file, item), result in results:
             if isinstance(result, Crash):
-                progress.hide()
                 inputs.undone[file] = f"internal error: {result.summary}"
                 inputs.fail(f"{file.name}: internal error, please report it: {result.summary}")
-                if progress.view.verbose:
+                if view.verbose:
                     notify(result.traceback)
             else:
                 yield item, result
@@ -334,7 +342,7 @@ def many_files(
 
 
 def each_deck(
-    inputs: Inputs, work: Callable[[Input, bytes], _Made], progress: Progress, *refusals: type[Exception]
+    inputs: Inputs, work: Callable[[Input, bytes], _Made], view: View, *refusals: type[Exception]
 ) -> Iterator[tuple[Input, bytes, _Made | None]]:
     """Yield each deck with its content and the result of `work`, made here, one after the other.
 
@@ -353,12 +361,11 @@ def each_deck(
         except refusing as error:
             return error
 
-    with closing(many_files(inputs, prepared, tried, progress, jobs=1)) as results:
+    with closing(many_files(inputs, prepared, tried, view, jobs=1)) as results:
         for (file, data), made in results:
             if not isinstance(made, Exception):
                 yield file, data, made
                 continue
-            progress.hide()
             if not isinstance(made, DeckError):
                 line = getattr(made, "line", None)
                 notify(f"{file.name}{f':{line}' if line else ''}: {made}")

@@ -19,7 +19,8 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDecks, takes_decks
 from mudline.cli.lint_report import LintOptions, LintReport, outputs
 from mudline.cli.lint_run import checked_settings, lint_files
-from mudline.cli.streams import View, notify
+from mudline.cli.streams import notify
+from mudline.cli.view import View
 from mudline.language.deck.searching import is_deck
 from mudline.language.diagnostics import Severity
 from mudline.tools.running.remembered import of_working_folder

@@ -13,11 +13,13 @@ import click
 
 from mudline.basics.installed import may_declare
 from mudline.basics.overwriting import claim
+from mudline.basics.short_repr import counted
 from mudline.checks.configuration import Configured
 from mudline.checks.output import TEXT, by_severity, form_module, form_names, visible
 from mudline.checks.pages import GROUP
 from mudline.cli.inputs import Input
-from mudline.cli.streams import Line, Part, View, counted, emit, notify, say, write_text
+from mudline.cli.streams import emit, notify, say, write_text
+from mudline.cli.view import Line, Part, View
 from mudline.language.diagnostics import Coverage, Diagnostic, Severity, Span
 from mudline.language.syntax.source import Source
 
@@ -82,7 +84,7 @@ class LintReport:
 
     def add(self, file: Input, data: bytes, findings: list[Diagnostic], fixed: int) -> None:
         """Add the remaining findings of a file, its content `data`, and the number of fixed findings."""
-        name, configuration = file.name, self.configured.of(file.path or file.name)
+        name, configuration = file.name, self.configured.of(file.place)
         limit = Severity(self.wanted.fail_on or configuration.value("fail-on"))
         self.names.append(name)
         self.found += findings

@@ -15,11 +15,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mudline.basics.outside import project_of
+from mudline.basics.short_repr import counted
 from mudline.checks.configuration import CallerSettings, Configuration, Configured
 from mudline.checks.report import FileReport
 from mudline.cli.inputs import Input, Inputs, many_files
 from mudline.cli.lint_report import LintReport
-from mudline.cli.streams import Progress, View, counted, naming, notify, refusing, write_text
+from mudline.cli.streams import naming, notify, refusing, write_text
+from mudline.cli.view import View
 from mudline.language.deck.forms import form_of
 from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
 from mudline.tools.running.remembered import Memory
@@ -84,13 +86,12 @@ def lint_files(inputs: Inputs, settings: Callable[[], Settings], report: LintRep
         key = "" if memory is None or file.path is None else key_of(memory, report.configured, file, data)
         if memory is not None and key and (held := memory.get(key)) is not None:
             return (file, data, "", remembered(held, file.name)), None
-        return (file, data, key, None), (file.name, data, settings().of(file.path or file.name), file.folder)
+        return (file, data, key, None), (file.name, data, settings().of(file.place), file.folder)
 
     recorded = _baseline(wanted.baseline, recording=wanted.recording)
     differs, documents = False, 0
     jobs = 1 if wanted.fixing else wanted.jobs  # another deck may continue a deck that is being fixed
-    progress = Progress(len(inputs.files), report.view, shown=False)
-    with closing(many_files(inputs, prepared, lint_one, progress, jobs=jobs)) as results:
+    with closing(many_files(inputs, prepared, lint_one, report.view, jobs=jobs, bar=False)) as results:
         for (file, data, key, known), linted in results:
             result = linted or known or FileReport(file.name, ())
             if memory is not None and key:
@@ -102,10 +103,9 @@ def lint_files(inputs: Inputs, settings: Callable[[], Settings], report: LintRep
                 content, result = _delivered(inputs, file, data, result, settings(), report.view, diff=wanted.diff)
             findings = list(result.found)
             if recorded is not None:
-                path = file.path or file.name
                 if wanted.recording:
-                    recorded.record(findings, content, path)
-                findings = recorded.unknown(findings, content, path)
+                    recorded.record(findings, content, file.place)
+                findings = recorded.unknown(findings, content, file.place)
             report.add(file, content, findings, len(result.fixed))
             report.coverage.add(result.coverage)
     if memory is not None:
@@ -135,7 +135,7 @@ def _delivered(
     content = data if result.changed is None else result.changed
     if deliver(inputs, file, data, content, view, diff=diff):
         return content, result
-    unfixed = replace(settings.of(file.path or file.name), fixing=Fixing.NONE)
+    unfixed = replace(settings.of(file.place), fixing=Fixing.NONE)
     return data, lint_one(file.name, data, unfixed, file.folder)
 
 

@@ -13,7 +13,8 @@ from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import GivenDecks, Input, Inputs, each_deck, reading_named_files, require_text, takes_decks
-from mudline.cli.streams import Progress, View, emit_deck, notify, write_bytes
+from mudline.cli.streams import emit_deck, notify, write_bytes
+from mudline.cli.view import View
 from mudline.editing.migration.migrating import Verification
 from mudline.editing.migration.refusals import Continuations
 from mudline.language.deck.loading import load_bytes
@@ -45,9 +46,8 @@ def command(*, decks: GivenDecks, output: str | None, diff: bool, proved: bool, 
         result = migrated(Deck(**vars(require_text(read))), verify=proved, among=among)
         return result, result.content_as(output or file.name) if result.replaced else data
 
-    code, progress = DONE, Progress(len(inputs.files), view)
-    for file, data, made in each_deck(inputs, work, progress):
-        progress.hide()
+    code = DONE
+    for file, data, made in each_deck(inputs, work, view):
         given = file.path if output is None else output
         path = Path(given) if given else None
         code = max(code, FOUND if made is None else _deliver(inputs, file, data, *made, path, view=view, diff=diff))

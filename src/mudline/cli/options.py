@@ -12,7 +12,8 @@ import click
 from mudline.basics import files
 from mudline.basics.overwriting import claim
 from mudline.basics.units import UNITS
-from mudline.cli.streams import View, refusing
+from mudline.cli.streams import refusing
+from mudline.cli.view import View
 
 Command = Callable[..., int]
 
@@ -61,15 +62,17 @@ Adding = Callable[[Command], Command]
 
 
 def gathered(name: str, record: type, *added: Adding) -> Adding:
-    """Return a decorator that adds options, and makes one record of the values that are named as its fields.
+    """Return a decorator that adds options; those named as the fields of a record reach the command as one record.
 
-    The record reaches the command as `name`, if it has this parameter.
+    The record is the command's parameter `name`; a command without this parameter ignores these options.
     """
 
     def decorated(command: Command) -> Command:
         def given(**values: object) -> int:
-            made = record(**{field: values.pop(field) for field in record.__annotations__ if field in values})
-            return command(**values, **({name: made} if name in command.__annotations__ else {}))
+            fields = {field: values.pop(field) for field in record.__annotations__ if field in values}
+            if name in command.__annotations__:
+                values[name] = record(**fields)
+            return command(**values)
 
         wrapped: Command = wraps(command)(given)
         for add in reversed(added):
@@ -205,7 +208,7 @@ def form_of_file(path: str, forms: Collection[str]) -> str:
 
 
 class _OutputFile(click.types.StringParamType):
-    """File that an option writes; of a command that `prints` one text - is standard output, which becomes ""."""
+    """File that an option writes; `prints` if `-` is standard output."""
 
     def __init__(self, *, prints: bool = False) -> None:
         self._prints = prints
@@ -221,7 +224,9 @@ class _OutputFile(click.types.StringParamType):
         return value
 
 
-OUTPUT_FILE, OUTPUT_TEXT = _OutputFile(), _OutputFile(prints=True)
+OUTPUT_FILE = _OutputFile()
+OUTPUT_TEXT = _OutputFile(prints=True)
+"""File of a command that prints a text if it writes none; "" is standard output, given as `-`."""
 output = partial(option, "-o", "--output", type=OUTPUT_FILE, metavar="OUT")
 """Decorator of `-o`, with the help of a command."""
 

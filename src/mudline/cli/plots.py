@@ -11,7 +11,8 @@ import click
 
 from mudline.basics.files import PLOT_FORMS, suffix_of
 from mudline.cli.options import OUTPUT_FILE, OWN, Command, form_of_file, option
-from mudline.cli.streams import View, require, writing
+from mudline.cli.streams import require, writing
+from mudline.cli.view import View
 
 
 def plot_option(what: str, group: str = OWN) -> Callable[[Command], Command]:
@@ -48,15 +49,3 @@ def _plot(_context: click.Context, _option: click.Parameter, path: str | None) -
     form_of_file(path, PLOT_FORMS)
     require("--plot", "plot", "matplotlib")
     return Path(path)
-
-
-def numbers_of_elements(_context: click.Context, _option: click.Parameter, text: str | None) -> tuple[int, ...]:
-    """Return the element numbers of `--plot-elements`, separated by commas; raises click.UsageError."""
-    numbers = []
-    for part in () if text is None else text.split(","):
-        try:
-            numbers.append(int(part))
-        except ValueError as error:
-            message = f"--plot-elements: {part.strip()!r} is not an element number; give numbers as 12,13"
-            raise click.UsageError(message) from error
-    return tuple(numbers)

@@ -15,7 +15,8 @@ from mudline.checks.engine import LintSettings
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDecks, Input, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
-from mudline.cli.streams import Progress, View, emit_json, refusing, require, write_text
+from mudline.cli.streams import emit_json, refusing, require, write_text
+from mudline.cli.view import View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.tools.reporting.content import BY_DEFAULT, SECTIONS, DeckFile, Look, LookError, PageHead
 from mudline.tools.reporting.pages import Pages, Wanted, make_page
@@ -36,7 +37,7 @@ from mudline.tools.reporting.pages import Pages, Wanted, make_page
     show_default=True,
     help="Write only these sections; study measures run times, which vary from run to run.",
 )
-@click.option("--rest-shape", is_flag=True, help="Evaluate contact at the resting shape of the deck.")
+@options.flag("--rest-shape", help="Evaluate contact at the resting shape of the deck.")
 @options.option("--title", metavar="TEXT", help="Title of the page (default: the *TITLE of the deck).")
 @options.option("--document", "number", metavar="TEXT", help="Number of the document.")
 @options.option("--revision", metavar="TEXT", help="Revision of the document.")
@@ -89,10 +90,10 @@ def command(
     contents = []
 
     def prepared(file: Input) -> tuple[Input, tuple[DeckFile, LintSettings, Wanted]]:
-        own = settings.of(file.path or file.name)
+        own = settings.of(file.place)
         return file, (DeckFile(file.read(), file.name, file.folder), own, (names, document, look, rest_shape))
 
-    results = many_files(inputs, prepared, make_page, Progress(len(inputs.files), view), jobs=jobs)
+    results = many_files(inputs, prepared, make_page, view, jobs=jobs)
     with refusing(LookError, kind=click.ClickException), closing(results):
         for file, page in results:
             if page is not None:

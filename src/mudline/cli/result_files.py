@@ -11,7 +11,8 @@ from pathlib import Path
 import click
 
 from mudline.basics.files import suffix_of
-from mudline.cli.streams import View, refusing, require, tracked, writing
+from mudline.cli.streams import refusing, require, writing
+from mudline.cli.view import View, tracked
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import (

@@ -15,7 +15,8 @@ from mudline.checks.pages import origin
 from mudline.checks.registry import UnknownRule, rules, select
 from mudline.cli import DONE, options
 from mudline.cli.lint_report import STYLES
-from mudline.cli.streams import View, emit_json, refusing
+from mudline.cli.streams import emit_json, refusing
+from mudline.cli.view import View
 from mudline.language.rules import Rule
 
 _PAGE = 100

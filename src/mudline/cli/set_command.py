@@ -16,7 +16,8 @@ from mudline.checks.rules.slips import CODES, UNT008
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, each_deck, require_text, takes_decks
-from mudline.cli.streams import Progress, View, emit, emit_deck, notify, notify_diagnostics, refusing
+from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics, refusing
+from mudline.cli.view import View
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
 from mudline.editing.assignment.fields import ConditionError, FieldTarget, parse_condition, target_of
 from mudline.editing.assignment.paths import Assignment, PathError, WrittenOperand, parse_assignment
@@ -58,10 +59,10 @@ def command(
         target = target_of(change.path, WrittenOperand.of(change.value))
         where = None if condition is None else parse_condition(condition)
     inputs = decks.collect()
-    run = _SetRun(change, target, where, decks.units, force, Progress(len(inputs.files), view))
+    run = _SetRun(change, target, where, decks.units, force, view)
     counts, printed = Counter[str](), list[bytes]()
     planned = list[tuple[Input, int, Sequence[TextEdit]]]()  # with a hash of the content that the edits are for
-    for file, data, made in each_deck(inputs, run.change, run.progress, AssignmentError, ConditionError):
+    for file, data, made in each_deck(inputs, run.change, view, AssignmentError, ConditionError):
         outcome = _REFUSED if made is None else made if isinstance(made, str) else _CHANGED if made.edits else _SAME
         counts[outcome] += 1
         done = made if isinstance(made, Assigned) and made.edits else None
@@ -69,7 +70,6 @@ def command(
             printed.append(_edited(file, data, done.edits if done else ()))
         if done is None:
             continue
-        run.progress.hide()
         words = f"{file.name}:{done.line}: {done.before} -> {done.after}"
         if view.verbose:
             notify(words)
@@ -101,7 +101,7 @@ class _SetRun(NamedTuple):
     condition: Callable[[Deck], bool] | None
     units: str | None
     force: bool
-    progress: Progress
+    view: View
 
     def change(self, file: Input, data: bytes) -> Assigned | str:
         """Return the changed deck, or the outcome of a deck without a change. Raises errors for refused decks."""
@@ -128,8 +128,7 @@ class _SetRun(NamedTuple):
         if unusual and not self.force:
             what = f"{self.target.path} would be unusual in the units of the deck"
             raise AssignmentError(f"{what}: correct the value, or give --force", change.line, unusual)
-        if not self.progress.view.quiet:
-            self.progress.hide()
+        if not self.view.quiet:
             remarks = [finding for finding in new if finding.code == UNT008.code and finding.line == change.line]
             warnings = [finding for finding in new if finding.severity is not Severity.INFO]
             notify_diagnostics(warnings + remarks, refused=False)

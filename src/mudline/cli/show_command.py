@@ -17,7 +17,8 @@ from mudline.basics.units import UNITS
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.result_files import require_library, write_tables
-from mudline.cli.streams import View, emit, emit_json, notify
+from mudline.cli.streams import emit, emit_json, notify
+from mudline.cli.view import View
 from mudline.language.diagnostics import Coverage
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.values import SUBJECTS

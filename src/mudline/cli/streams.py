@@ -1,4 +1,4 @@
-"""Standard output and error, messages for people, files that a command writes, settings of printing, progress."""
+"""Standard output and error, messages for people, and files that a command writes."""
 
 from __future__ import annotations
 
@@ -6,29 +6,20 @@ import io
 import json
 import os
 import sys
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
-from time import monotonic
-from typing import TYPE_CHECKING, BinaryIO, NamedTuple, TypeVar
+from typing import BinaryIO
 
 import click
 
 from mudline.basics.installed import install_hint
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.overwriting import claim
-from mudline.basics.short_repr import counted as counted  # noqa: PLC0414 - commands that print findings take it here
 from mudline.checks.output import visible, visible_lines
 from mudline.language.diagnostics import Diagnostic
 from mudline.language.syntax.source import Source
-
-if TYPE_CHECKING:
-    import rich.progress
-
-    from mudline.cli.printing import Printer
-
-T = TypeVar("T")
 
 
 def prepare() -> None:
@@ -77,6 +68,15 @@ def emit_json(value: object, output: str | None = None) -> None:
         write_text(Path(output), pieces)
 
 
+def json_rows(head: Mapping[str, object], name: str, rows: Iterable[str]) -> Iterator[str]:
+    """Yield a JSON object up to the end of its last value, a list called `name` of rows in JSON, each on a new line."""
+    mark = json.dumps({**head, name: []}, indent=1, ensure_ascii=False).removesuffix("]\n}")
+    for row in rows:
+        yield f"{mark}\n  {row}"
+        mark = ","
+    yield "\n ]" if mark == "," else f"{mark}]"
+
+
 def emit_deck(data: bytes) -> None:
     """Write a deck to standard output, byte for byte except on a terminal."""
     if sys.stdout.isatty():
@@ -87,6 +87,8 @@ def emit_deck(data: bytes) -> None:
 
 def _write(pieces: Iterable[bytes]) -> None:
     sys.stdout.flush()
+    if sys.stdout.isatty():
+        erase()
     for piece in pieces:
         rest = memoryview(piece)
         while rest:  # an unbuffered stream may accept only a part
@@ -101,8 +103,19 @@ def encoded(text: str) -> bytes:
 # -------------------------------------------------------------------------------------------------- standard error
 
 
+DRAWN: list[Callable[[], None]] = []
+"""Erase what is drawn on the terminal for a moment, as the bar of a long run; called before anything is printed."""
+
+
+def erase() -> None:
+    """Erase what is drawn for a moment."""
+    for each in DRAWN:
+        each()
+
+
 def notify(message: str) -> None:
     """Print a note or an error to standard error."""
+    erase()
     click.echo(f"mudline: {visible_lines(message)}", err=True)
 
 
@@ -116,6 +129,8 @@ def notify_some(messages: Sequence[str], more: str) -> None:
 
 def notify_diagnostics(diagnostics: Sequence[Diagnostic], *, refused: bool = True) -> None:
     """Print the errors that make a deck unusable, or, unless `refused`, findings with their severity."""
+    if diagnostics:
+        erase()
     for finding in diagnostics[:SHOWN_ROWS]:
         place = visible(f"{finding.file}:{finding.line}:{finding.column}")
         severity = "error" if refused else finding.severity.value
@@ -192,103 +207,3 @@ def write_text(path: Path, pieces: Iterable[str]) -> None:
     """Write a text in pieces, as UTF-8."""
     with writing(path) as stream:
         stream.writelines(encoded(piece) for piece in pieces)
-
-
-# --------------------------------------------------------------------------------------------- settings of printing
-
-Part = str | tuple[str, str]
-"""Piece of a line: a text, or a text and its style."""
-Line = Sequence[Part]
-"""Pieces of a line; a single text is not a line."""
-
-
-class View(NamedTuple):
-    """Settings of printing: colours ("auto", "always", "never"), less, or more."""
-
-    color: str = "auto"
-    quiet: bool = False
-    verbose: bool = False
-
-    def printer(self) -> Printer:
-        """Return the printer for people."""
-        from mudline.cli.printing import Printer  # noqa: PLC0415 - output for programs needs no rich
-
-        return Printer(self.color)
-
-    def lines(self, lines: Iterable[Line]) -> None:
-        """Print lines for people; without terminal and colour rich is not loaded, as that takes half of a short run."""
-        if self.color == "always" or sys.stdout.isatty():
-            printer = self.printer()
-            for line in lines:
-                printer.line(*line)
-        else:
-            texts = ((part if isinstance(part, str) else part[0] for part in line) for line in lines)
-            sys.stdout.writelines(f"{''.join(pieces)}\n" for pieces in texts)
-
-    @property
-    def most(self) -> int:
-        """Largest number of rows of a table; -v shows all."""
-        return sys.maxsize if self.verbose else SHOWN_ROWS
-
-    @property
-    def width(self) -> int | None:
-        """Columns of the terminal; None without a terminal."""
-        return self.printer().width if sys.stdout.isatty() else None
-
-    def note(self, message: str) -> None:
-        """Print a note to standard error, unless only the result is wanted."""
-        if not self.quiet:
-            notify(message)
-
-
-# ------------------------------------------------------------------------------------------- progress of a long run
-
-DELAY = 0.5
-"""Seconds before a bar is drawn."""
-_PAUSE = 0.1
-"""Minimum seconds between two drawings."""
-
-
-class Progress(AbstractContextManager["Progress"]):
-    """Steps done out of a total, as a bar on standard error, which is hidden while anything else is printed.
-
-    No bar is drawn in CI, or if standard error is not a terminal that can erase.
-    """
-
-    def __init__(self, total: int, view: View, *, shown: bool = True) -> None:
-        self.view = view
-        self._total = total
-        self._done = 0
-        self._bar: rich.progress.Progress | None = None
-        dumb = os.environ.get("TERM", "").lower() in {"dumb", "unknown"}
-        may_draw = sys.stderr.isatty() and not (view.quiet or dumb or os.environ.get("CI"))
-        self._due = monotonic() + DELAY if shown and total > 1 and may_draw else float("inf")
-
-    def __exit__(self, *_: object) -> None:
-        self.hide()
-
-    def advance(self, steps: int = 1) -> None:
-        """Count one more step, or several."""
-        self._done += steps
-        if monotonic() >= self._due:
-            if self._bar is None:
-                from mudline.cli.printing import bar  # noqa: PLC0415 - large, and a bar is rare
-
-                self._bar = bar(self._total, self.view.color)
-            self._bar.update(self._bar.task_ids[0], completed=self._done)
-            self._bar.start()
-            self._bar.refresh()
-            self._due = monotonic() + _PAUSE
-
-    def hide(self) -> None:
-        """Erase the bar so that other lines can be printed; a later step draws it again."""
-        if self._bar:
-            self._bar.stop()
-
-
-def tracked(items: Sequence[T], view: View) -> Iterator[T]:
-    """Yield the items, with a bar of the number done."""
-    with Progress(len(items), view) as progress:
-        for item in items:
-            yield item
-            progress.advance()

@@ -17,7 +17,8 @@ from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.options import ABOVE_ZERO
 from mudline.cli.plots import Plot, plot_option, write_plot
-from mudline.cli.streams import View, emit, emit_json, notify, tracked
+from mudline.cli.streams import emit, emit_json, notify
+from mudline.cli.view import View, tracked
 from mudline.tools.touchdown_study.screen import TABLES, description, sentences
 from mudline.tools.touchdown_study.study import PARTS, Study
 

@@ -21,7 +21,8 @@ from mudline.checks.verdict import Verdict, judge_content
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_report import print_findings
-from mudline.cli.streams import Progress, View, emit
+from mudline.cli.streams import emit, json_rows
+from mudline.cli.view import View
 from mudline.language.deck.searching import is_in_any_form
 from mudline.language.diagnostics import Coverage, Diagnostic
 from mudline.language.syntax.source import Source
@@ -61,8 +62,8 @@ def command(*, decks: GivenDecks, output_format: str, fail_on: str, no_outside: 
     """
     inputs = decks.collect(is_in_any_form)
     total, listing = ValidationTotal(), view.verbose or output_format == "json"
-    progress = Progress(len(inputs.files), view, shown=output_format == "text" or not sys.stdout.isatty())
-    with closing(_judged(inputs, (decks.units, no_outside, listing), total, progress, jobs)) as judged:
+    bar = output_format == "text" or not sys.stdout.isatty()
+    with closing(_judged(inputs, (decks.units, no_outside, listing), total, view, jobs, bar=bar)) as judged:
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
@@ -129,21 +130,19 @@ def judge_file(
 
 
 def _judged(
-    inputs: Inputs, options: tuple[str | None, bool, bool], total: ValidationTotal, progress: Progress, jobs: int
+    inputs: Inputs, options: tuple[str | None, bool, bool], total: ValidationTotal, view: View, jobs: int, *, bar: bool
 ) -> Generator[Judged, None, None]:
-    """Yield and count each readable deck. The bar is hidden while errors of a deck are printed."""
+    """Yield and count each readable deck."""
 
     def prepared(file: Input) -> tuple[bytes, tuple[Input, bytes, str | None, bool, bool]]:
         data = file.read()
         return data, (file, data, *options)
 
-    with closing(many_files(inputs, prepared, judge_file, progress, jobs=jobs)) as results:
+    with closing(many_files(inputs, prepared, judge_file, view, jobs=jobs, bar=bar)) as results:
         for data, result in results:
             if result is not None:
                 verdict, findings = result
                 total.add(verdict)
-                if findings:
-                    progress.hide()
                 yield verdict, findings, data
     total.unreadable = len(inputs.undone)
 
@@ -153,13 +152,10 @@ def _judged(
 
 def _print_json(judged: Iterable[Judged], total: ValidationTotal) -> None:
     """Print one JSON object; each deck is written as soon as it is judged."""
-    mark = '{\n "decks": ['
-    for verdict, findings, _ in judged:
-        row = {**verdict.row(), "findings": [as_object(each) for each in findings]}
-        emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
-        mark = ","
-    end = "\n ]" if mark == "," else f"{mark}]"
-    emit([end, ',\n "total": ', indent(json.dumps(asdict(total), indent=1, ensure_ascii=False), " ").lstrip(), "\n}\n"])
+    rows = ({**verdict.row(), "findings": [as_object(each) for each in findings]} for verdict, findings, _ in judged)
+    texts = (indent(json.dumps(row, indent=1, ensure_ascii=False), "  ").lstrip() for row in rows)
+    emit(json_rows({}, "decks", texts))
+    emit([",", json.dumps({"total": asdict(total)}, indent=1, ensure_ascii=False).removeprefix("{"), "\n"])
 
 
 def _print_text(judged: Iterable[Judged], total: ValidationTotal, view: View) -> None:

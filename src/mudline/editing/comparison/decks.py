@@ -64,6 +64,22 @@ class Comparison(NamedTuple):
         return not self.differences and all(deck.status is DeckStatus.EQUAL for deck in self.decks)
 
 
+class DeckPair(NamedTuple):
+    """The decks with the same path below two folders.
+
+    Attributes:
+        name: path of the decks below both folders.
+        before: file of the first deck; "" if missing.
+        after: file of the second deck; "" if missing.
+        unread: reason why `name`, a path in one of the folders, cannot be searched for decks.
+    """
+
+    name: str
+    before: str = ""
+    after: str = ""
+    unread: OSError | None = None
+
+
 class ComparedDeck(NamedTuple):
     """Result of the comparison of a deck in two folders.
 
@@ -75,6 +91,7 @@ class ComparedDeck(NamedTuple):
         comparison: the differences.
         errors: reasons why the decks could not be compared.
         unread: reason why a file could not be read.
+        crash: fault of the program itself, which the command reports; "" for none.
     """
 
     name: str
@@ -84,13 +101,15 @@ class ComparedDeck(NamedTuple):
     comparison: Comparison = Comparison([], [])
     errors: Sequence[Diagnostic] = ()
     unread: OSError | None = None
+    crash: str = ""
 
     @property
     def why(self) -> str:
         """The first error in one line; "" without errors."""
         if self.unread is not None:
             return f"{Path(self.unread.filename).as_posix()}: {(self.unread.strerror or str(self.unread)).lower()}"
-        return next((f"{each.file}:{each.line}:{each.column}: {each.code} {each.message}" for each in self.errors), "")
+        errors = (f"{each.file}:{each.line}:{each.column}: {each.code} {each.message}" for each in self.errors)
+        return next(errors, self.crash)
 
 
 def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: bool = False) -> Comparison:
@@ -103,37 +122,43 @@ def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: 
     return Comparison(differences, []) if strict else without_spelling(before, after, differences, tolerance)
 
 
-def compare_folders(
-    before: Search,
-    after: Search,
-    taken: Callable[[str], bool],
-    tolerance: float,
-    *,
-    strict: bool,
-    units: str | None = None,
-) -> Iterator[ComparedDeck]:
-    """Yield each relative path of a deck below one of two folders, in sorted order, with the result of its comparison.
+def paired(before: Search, after: Search, taken: Callable[[str], bool]) -> Iterator[DeckPair]:
+    """Yield each relative path of a file that is `taken` below one of two folders, in sorted order.
 
-    The decks are the files that are `taken`. Those that cannot be read or have errors have the status "failed".
+    What cannot be searched comes first.
     """
-    old, new = ({name: Path(path) for name, path in search.files(taken)} for search in (before, after))
+    old, new = ({name: Path(path).as_posix() for name, path in search.files(taken)} for search in (before, after))
     for error in (*before.unreadable, *after.unreadable):
-        name = str(error.filename).replace(os.sep, "/")
-        yield ComparedDeck(name, DeckStatus.FAILED, unread=error)
+        yield DeckPair(str(error.filename).replace(os.sep, "/"), unread=error)
     for name in sorted({*old, *new}):
-        if name not in old or name not in new:
-            yield ComparedDeck(name, DeckStatus.REMOVED if name in old else DeckStatus.ADDED)
-            continue
-        names = old[name].as_posix(), new[name].as_posix()
-        try:
-            first, second = (load_path(path, units=units) for path in (old[name], new[name]))
-            compared = compare_decks(first, second, tolerance, strict=strict)
-        except DeckError as error:
-            yield ComparedDeck(name, DeckStatus.FAILED, *names, errors=error.diagnostics)
-        except OSError as error:
-            yield ComparedDeck(name, DeckStatus.FAILED, *names, unread=error)
-        else:
-            yield ComparedDeck(name, DeckStatus.CHANGED if compared.differences else DeckStatus.EQUAL, *names, compared)
+        yield DeckPair(name, old.get(name, ""), new.get(name, ""))
+
+
+def compare_pair(
+    pair: DeckPair,
+    tolerance: float,
+    strict: bool,  # noqa: FBT001 - other processes get arguments by place
+    units: str | None,
+) -> ComparedDeck:
+    """Return the result of the comparison of two decks of folders, read in `units` if given. Runs in any process.
+
+    Decks that cannot be read or have errors have the status "failed".
+    """
+    failed = partial(ComparedDeck, pair.name, DeckStatus.FAILED)
+    if pair.unread is not None:
+        return failed(unread=pair.unread)
+    if not (pair.before and pair.after):
+        return ComparedDeck(pair.name, DeckStatus.REMOVED if pair.before else DeckStatus.ADDED)
+    files = pair.before, pair.after
+    try:
+        first, second = (load_path(Path(file), units=units) for file in files)
+        compared = compare_decks(first, second, tolerance, strict=strict)
+    except DeckError as error:
+        return failed(*files, errors=error.diagnostics)
+    except OSError as error:
+        return failed(*files, unread=error)
+    status = DeckStatus.CHANGED if compared.differences else DeckStatus.EQUAL
+    return ComparedDeck(pair.name, status, *files, compared)
 
 
 # -------------------------------------------------------------------------------------------------- superseded keywords

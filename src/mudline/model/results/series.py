@@ -281,7 +281,7 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
     more = {
         "steps": evaluation.steps,
         "plan": plan_rows(evaluation.model.plan),
-        "positions": "file",
+        "positions": evaluation.source,
         "warnings": [warning.row() for warning in warnings],
     }
     return ResultTables(tables, SERIES_FORMAT, evaluation.scene.units, more)
