@@ -21,7 +21,7 @@ from mudline.model.contact.lines import lines_of
 from mudline.model.contact.seabed import Seabed
 from mudline.model.contact.touchdown import line_summaries
 from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms
-from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
+from mudline.model.scene.deck_values import FORCE_UNIT, LENGTH_UNIT, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.seabed import SeabedKind, made_seabed
@@ -36,7 +36,6 @@ _AROUND = 5
 """Elements in contact next to each touchdown point whose seabed is used for targets with one seabed."""
 _DRAG, _ADDED = 1.2, 1.0
 """Coefficients used if the deck has none."""
-_UNITS = {"metric": SiFactors(1.0, 1.0), "imperial": SiFactors(FOOT, POUND)}
 
 
 class End(NamedTuple):
@@ -83,6 +82,11 @@ class LineStretch(NamedTuple):
     soil: int
     nodes: Indices
     lengths: Floats
+
+    @property
+    def length(self) -> float:
+        """Length of all elements."""
+        return float(self.lengths.sum())
 
     @property
     def is_even(self) -> bool:
@@ -136,6 +140,10 @@ class LineModel(NamedTuple):
         known = level[~np.isnan(level)]
         return np.where(np.isnan(level), known.min() if known.size else -self.depth, level)
 
+    def pieces(self, key: Callable[[LineStretch], object]) -> list[list[LineStretch]]:
+        """Return the stretches of each line, with consecutive stretches of the same key joined."""
+        return [list(line.pieces(key)) for line in self.lines]
+
     def line_nodes(self) -> Indices:
         """Return the nodes of all lines, each once."""
         return np.unique(np.concatenate([part.nodes for line in self.lines for part in line.stretches]))
@@ -148,9 +156,9 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     stiffness. Also raised for an end that nothing holds, a closed line, and an unknown seabed.
     """
     report = ExportReport(scene)
-    units = _UNITS.get(scene.units)
-    if units is None:
+    if scene.units not in LENGTH_UNIT:
         raise scene.refusal("the units of this deck are not known: give --units metric or --units imperial")
+    units = SiFactors(LENGTH_UNIT[scene.units], FORCE_UNIT[scene.units])
     _require_elements(scene)
     density, gravity, depth = scene.surroundings
     if not (depth > 0.0 and gravity > 0.0):

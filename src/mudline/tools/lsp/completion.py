@@ -51,7 +51,7 @@ class _Cursor(NamedTuple):
 def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[types.CompletionItem]:
     """Return the completions at an offset; `snippets` says that the editor accepts placeholders."""
     document = analysis.document
-    line = document.source.line_span(document.line_at(offset) + 1)
+    line = document.source.line_around(offset)
     here = analysis.origin.tree.at(max(line.start - 1, 0))
     cursor = _Cursor(analysis, offset, document.text[line.start : offset], here, snippets)
     if head := _HEAD.match(cursor.before):
