@@ -21,7 +21,7 @@ from mudline.model.contact.lines import lines_of
 from mudline.model.contact.seabed import Seabed
 from mudline.model.contact.touchdown import line_summaries
 from mudline.model.scene.boundary import NO_FREEDOMS, TRANSLATIONS, held_freedoms
-from mudline.model.scene.deck_values import FORCE_UNIT, LENGTH_UNIT, number, unread_makers
+from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.seabed import SeabedKind, made_seabed
@@ -36,6 +36,7 @@ _AROUND = 5
 """Elements in contact next to each touchdown point whose seabed is used for targets with one seabed."""
 _DRAG, _ADDED = 1.2, 1.0
 """Coefficients used if the deck has none."""
+_UNITS = {"metric": SiFactors(1.0, 1.0), "imperial": SiFactors(FOOT, POUND)}
 
 
 class End(NamedTuple):
@@ -156,9 +157,9 @@ def build(scene: Scene, positions: Floats | None = None) -> LineModel:
     stiffness. Also raised for an end that nothing holds, a closed line, and an unknown seabed.
     """
     report = ExportReport(scene)
-    if scene.units not in LENGTH_UNIT:
+    units = _UNITS.get(scene.units)
+    if units is None:
         raise scene.refusal("the units of this deck are not known: give --units metric or --units imperial")
-    units = SiFactors(LENGTH_UNIT[scene.units], FORCE_UNIT[scene.units])
     _require_elements(scene)
     density, gravity, depth = scene.surroundings
     if not (depth > 0.0 and gravity > 0.0):

@@ -22,7 +22,7 @@ from mudline.model.scene.sets import ALL, LONGEST_NAME
 from mudline.tools.lsp import places
 from mudline.tools.lsp.decks import Analysis, Decks, OpenDocument, address_of, failed
 from mudline.tools.lsp.help import file_named, index_of
-from mudline.tools.lsp.places import WORDS, Occurrence, Site, Thing, occurrences, site
+from mudline.tools.lsp.places import Occurrence, Site, Thing, occurrences, site
 
 Linked = tuple[OpenDocument, Deck]
 """Text of a deck of a chain as a document, open or not, and the deck."""
@@ -123,7 +123,7 @@ class Navigator:
         named = places.at(self.analysis.names, offset)
         if named is None:
             raise failed("only sets, curves and parameters can be renamed")
-        word = WORDS[named.thing.kind]
+        word = named.thing.kind.name.lower()
         if named.thing == Thing(Names.SET, ALL):
             raise failed("set ALL is predefined and cannot be renamed")
         uses = [use for _, use in self._named(named.thing)]
@@ -155,7 +155,7 @@ class Navigator:
         return types.WorkspaceEdit(changes=edits_of_files)
 
     def _check(self, old: Thing, new: Thing, name: str) -> None:
-        word = WORDS[old.kind]
+        word = old.kind.name.lower()
         if not name or name != name.strip() or any(letter in name for letter in _NOT_IN_NAMES):
             raise failed(f"{shown(name)} cannot be the name of a {word}: leave out commas, =, quotes and brackets")
         if len(name) > LONGEST_NAME:

@@ -26,7 +26,6 @@ KINDS = {
     Names.PARAMETER: Names.PARAMETER,
 }
 """Kind of the named object, for each way to name it."""
-WORDS = {Names.SET: "set", Names.CURVE: "curve", Names.PARAMETER: "parameter"}
 _SET = "SET"
 _EQUATION = re.compile(r"=\[(?:[^\[\]\r\n]|\[[^\[\]\r\n]*\])*\]")
 
