@@ -33,13 +33,14 @@ _GRID = 200
 
 def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the lines of MoorDyn along each line of the model: sections with the same numbers are one line type."""
-    return model.pieces(lambda each: alike(model, each.section))
+    first = np.array(_alike(model))
+    return [line.stretches(first[line.kinds[:, :1]]) for line in model.lines]
 
 
-def alike(model: LineModel, section: int) -> int:
-    """Return the first section with the same numbers, as far as MoorDyn has them."""
+def _alike(model: LineModel) -> list[int]:
+    """Return for each section the first with the same numbers, as far as MoorDyn has them."""
     numbers = [_numbers(each) for each in model.sections]
-    return numbers.index(numbers[section])
+    return [numbers.index(each) for each in numbers]
 
 
 def segments(piece: LineStretch) -> int:
@@ -53,13 +54,14 @@ def segments(piece: LineStretch) -> int:
 def write(model: LineModel, name: str) -> dict[str, str]:
     """Return the text of each file by its name; `name` is that of the input file."""
     names = TargetNames(model.report, "A-Za-z0-9_", 32)
-    first = [alike(model, at) for at in range(len(model.sections))]
+    first = _alike(model)
     taken = {at: names.take(model.sections[at].name, model.sections[at].where) for at in dict.fromkeys(first)}
     types = [taken[at] for at in first]
     bed = model.levels(*model.places[:, :2].T)
     points, lines = _joined(model, types, bed)
     soil = model.soil
-    width = {part.soil: model.sections[part.section].buoyancy for line in model.lines for part in line.stretches}
+    stretches = chain.from_iterable(line.stretches(line.kinds) for line in model.lines)
+    width = {each.soil: model.sections[each.section].buoyancy for each in stretches}
     own, heaviest = width[model.soils.index(soil)], max(each.mass for each in model.sections)
     stiffness, friction = soil.stiffness / own, soil.axial
     floor = re.sub("[^A-Za-z0-9]", "_", name.rpartition(".")[0] or name)

@@ -19,7 +19,10 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats
 
 if TYPE_CHECKING:
-    from mudline.tools.exporting.line_model import LineModel, LineStretch
+    from mudline.tools.exporting.line_model import ExportLine, LineModel, LineStretch
+
+    PartRead = tuple[LineStretch | ExportLine, Floats, Floats]
+    """A line or a part of it, with the arc lengths of the other program's nodes and their places."""
 
 _LINE_FILE = re.compile(r"(.*_Line)(\d+)(\.\w+)", re.IGNORECASE)
 _NODE = re.compile(r"node(\d+)p([xyz])")
@@ -57,7 +60,7 @@ def _moordyn(path: Path, model: LineModel) -> Positions:
     if int(named[2]) > len(parts):
         raise data_error(path.as_posix(), f"line {named[2]}: the deck is exported as {len(parts)} lines")
     time: Floats | None = None
-    parts_read: list[tuple[LineStretch, Floats, Floats]] = []
+    parts_read: list[PartRead] = []
     for number, part in enumerate(parts, 1):
         file = path.with_name(f"{named[1]}{number}{named[3]}")
         if not file.exists():
@@ -111,11 +114,10 @@ def _orcaflex(path: Path, model: LineModel, headings: dict[str, str]) -> Positio
     if len(arcs) != nodes:
         message = f"{nodes} nodes, the exported line has {len(arcs)}: give a table with the column Arc length (m)"
         raise data_error(file, message)
-    (whole,) = model.lines[0].pieces(lambda _: None)
-    return _positions(model, [(whole, arcs, places)], times if "time" in columns else None)
+    return _positions(model, [(model.lines[0], arcs, places)], times if "time" in columns else None)
 
 
-def _positions(model: LineModel, parts: list[tuple[LineStretch, Floats, Floats]], time: Floats | None) -> Positions:
+def _positions(model: LineModel, parts: list[PartRead], time: Floats | None) -> Positions:
     """Return positions of the deck's nodes, in its axes and units, interpolated by arc length."""
     steps, count = len(parts[0][2]), len(model.places)
     values, present = np.full((steps, count, 3), np.nan), np.zeros(count, dtype=np.bool_)
