@@ -7,6 +7,7 @@ mudline at X = 0 of the deck is at z = -depth.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple, cast
 
@@ -110,13 +111,12 @@ class ExportLine(NamedTuple):
     nodes: Indices
     lengths: Floats
 
-    def stretches(self, labels: Indices) -> list[LineStretch]:
-        """Return the stretches of consecutive elements with the same labels (k, j)."""
+    def stretches(self, labels: Indices) -> Iterator[LineStretch]:
+        """Yield the stretches of consecutive elements with the same labels (k, j)."""
         changes = np.flatnonzero((np.diff(labels, axis=0) != 0).any(axis=1)) + 1
-        return [
-            LineStretch(*self.kinds[first].tolist(), self.nodes[first : end + 1], self.lengths[first:end])
-            for first, end in pairwise([0, *changes.tolist(), len(labels)])
-        ]
+        for first, end in pairwise([0, *changes.tolist(), len(labels)]):
+            section, soil = self.kinds[first].tolist()
+            yield LineStretch(section, soil, self.nodes[first : end + 1], self.lengths[first:end])
 
 
 class LineModel(NamedTuple):

@@ -34,7 +34,7 @@ _GRID = 200
 def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the lines of MoorDyn along each line of the model: sections with the same numbers are one line type."""
     first = np.array(_alike(model))
-    return [line.stretches(first[line.kinds[:, :1]]) for line in model.lines]
+    return [list(line.stretches(first[line.kinds[:, :1]])) for line in model.lines]
 
 
 def _alike(model: LineModel) -> list[int]:

@@ -47,7 +47,7 @@ Items = dict[str, object]
 
 def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the sections of OrcaFlex along each line of the model: friction belongs to the line type."""
-    return [line.stretches(line.kinds) for line in model.lines]
+    return [list(line.stretches(line.kinds)) for line in model.lines]
 
 
 def segments(piece: LineStretch) -> int:
