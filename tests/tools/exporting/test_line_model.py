@@ -27,7 +27,7 @@ CURVE = (
 def test_a_line_has_the_lengths_places_and_ends_of_the_deck() -> None:
     model = model_of(text())
     (line,) = model.lines
-    (stretch,) = line.stretches
+    (stretch,) = line.stretches(line.kinds)
     assert stretch.lengths.tolist() == [5.0] * 10
     assert model.places[0].tolist() == [0.0, 0.0, -100.0]
     assert model.places[1].tolist() == [50.0, 0.0, -100.0]
@@ -220,7 +220,7 @@ def test_what_no_target_can_hold_is_refused_with_its_line(deck: str, units: str,
 def test_an_inner_node_that_is_held_divides_the_line() -> None:
     held = BOTH + "".join(f" 6, {freedom}\n" for freedom in (1, 2, 3)) + " GEN=3, 4, 3\n"
     model = model_of(text(held=held))
-    assert [len(line.stretches[0].lengths) for line in model.lines] == [5, 5]
+    assert [len(line.lengths) for line in model.lines] == [5, 5]
     assert [model.ends[line.begin].node for line in model.lines] == [0, 6]
     inside = [entry.effect for entry in model.report.entries if "inside" in entry.effect]
     assert inside == ["inside of a line: free here (nodes: 2, the first 3)"]

@@ -132,6 +132,15 @@ def test_suppressed_findings_stand_with_their_reason(tmp_path: Path) -> None:
     assert (hidden["code"], hidden["reason"]) == ("TIM005", "kept <for> the old run")
 
 
+@pytest.mark.parametrize("form", ["keyword", "json", "yaml"])
+def test_a_finding_stands_in_its_section_of_a_document_too(tmp_path: Path, form: str) -> None:
+    deck = tmp_path / ("deck.keyxm" if form == "keyword" else f"deck.{form}")
+    converted = run("convert", str(SAMPLES / "scr-touchdown.keyxm"), "--to", form).out
+    deck.write_text(converted, encoding="utf-8")
+    (found,) = content(str(deck), sections="findings")["sections"]["findings"]["reported"]
+    assert (found["code"], found["section"]) == ("TIM005", "$LOAD CASE")
+
+
 HOSTILE = (
     "<script>alert(1)</script>",
     "</style><script>alert(1)</script>",

@@ -27,7 +27,7 @@ from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, edited_bytes
 from mudline.language.syntax.source import Source
-from mudline.language.syntax.tree import Leaf, RawBlock, RawSection, is_data
+from mudline.language.syntax.tree import RawBlock, RawSection, is_data
 from mudline.model.scene.deck_values import file_name, find_file, settings_in
 
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')

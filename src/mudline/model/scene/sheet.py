@@ -115,10 +115,7 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[DisplayColumn
     table, pipe, filled = scene.section_table, pipe_of(scene), contents(scene)
     outer, inner, drag_diameter, buoyancy = map(table.values, ("do", "di", "dd", "db"))
     inner[inner == 0.0] = np.nan
-    friction = scene.resistance.column("friction")
-    if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
-        given = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
-        friction = np.where((extension.of_element >= 0)[:, None], np.column_stack(given), friction)
+    friction = friction_coefficients(scene)
     last = filled[-1].density if filled else np.zeros(len(scene.element_ids))
     not_read = (last == 0.0) if set(NOT_READ) & set(left_out(scene)) else np.zeros(len(last), np.bool_)
     values_by_column = {
@@ -155,6 +152,15 @@ def _numbers(scene: ResolvedDeck) -> tuple[dict[str, Floats], list[DisplayColumn
     for key in ("diameter_over_wall", "bending", "axial", *(key for key in values_by_column if "weight" in key)):
         values_by_column[key] = np.where(no_wall, np.nan, values_by_column[key])
     return values_by_column, others
+
+
+def friction_coefficients(scene: ResolvedDeck) -> Floats:
+    """Return the coefficients along and across of elements (m, 2), those of `*SEABED FRICTION` first; NaN for none."""
+    friction = scene.resistance.column("friction")
+    if (extension := scene.extensions.get("SEABED FRICTION")) is not None:
+        given = [extension.values(extension.of_element, "coefficients", name) for name in ("first", "second")]
+        friction = np.where((extension.of_element >= 0)[:, None], np.column_stack(given), friction)
+    return friction
 
 
 def _runs(scene: ResolvedDeck, columns: Sequence[NDArray[np.generic]]) -> list[tuple[int, int]]:

@@ -7,8 +7,8 @@ mudline at X = 0 of the deck is at z = -depth.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from itertools import groupby, pairwise
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple, cast
 
 import numpy as np
@@ -77,12 +77,20 @@ class PipeSection(NamedTuple):
 
 
 class LineStretch(NamedTuple):
-    """Consecutive elements with one section and one seabed: indices of k + 1 nodes in the model, and k lengths."""
+    """Consecutive elements with one section and one seabed: indices of k + 1 nodes in the model, and k lengths.
+
+    If a target takes several sections or seabeds as one, they are those of the first element.
+    """
 
     section: int
     soil: int
     nodes: Indices
     lengths: Floats
+
+    @property
+    def length(self) -> float:
+        """Length of all elements."""
+        return float(self.lengths.sum())
 
     @property
     def is_even(self) -> bool:
@@ -91,19 +99,24 @@ class LineStretch(NamedTuple):
 
 
 class ExportLine(NamedTuple):
-    """A line from one end to the other; `begin` and `end` are indices of the model's ends."""
+    """A line from one end to the other: its k elements, with the section and the soil (k, 2) of each.
+
+    `begin` and `end` are indices of the model's ends. Nodes and lengths are as in `LineStretch`.
+    """
 
     name: str
     begin: int
     end: int
-    stretches: list[LineStretch]
+    kinds: Indices
+    nodes: Indices
+    lengths: Floats
 
-    def pieces(self, key: Callable[[LineStretch], object]) -> Iterator[LineStretch]:
-        """Yield the stretches, with consecutive stretches of the same key joined."""
-        for first, *others in (list(alike) for _, alike in groupby(self.stretches, key)):
-            nodes = np.concatenate([first.nodes, *(stretch.nodes[1:] for stretch in others)])
-            lengths = np.concatenate([first.lengths, *(stretch.lengths for stretch in others)])
-            yield LineStretch(first.section, first.soil, nodes, lengths)
+    def stretches(self, labels: Indices) -> Iterator[LineStretch]:
+        """Yield the stretches of consecutive elements with the same labels (k, j)."""
+        changes = np.flatnonzero((np.diff(labels, axis=0) != 0).any(axis=1)) + 1
+        for first, end in pairwise([0, *changes.tolist(), len(labels)]):
+            section, soil = self.kinds[first].tolist()
+            yield LineStretch(section, soil, self.nodes[first : end + 1], self.lengths[first:end])
 
 
 class LineModel(NamedTuple):
@@ -138,7 +151,7 @@ class LineModel(NamedTuple):
 
     def line_nodes(self) -> Indices:
         """Return the nodes of all lines, each once."""
-        return np.unique(np.concatenate([part.nodes for line in self.lines for part in line.stretches]))
+        return np.unique(np.concatenate([line.nodes for line in self.lines]))
 
 
 def build(scene: Scene, positions: Floats | None = None) -> LineModel:
@@ -335,14 +348,9 @@ def _lines(
         for first, last in pairwise(cuts):
             part, through = elements[first:last], nodes[first : last + 1]
             begin, end = end_of(int(through[0])), end_of(int(through[-1]))
-            keys = np.column_stack([section_of[part], soil_of[part]])
-            starts = [0, *(np.flatnonzero((np.diff(keys, axis=0) != 0).any(axis=1)) + 1).tolist(), len(part)]
+            kinds = np.column_stack([section_of[part], soil_of[part]])
             lengths = scene.length[part] * units.length
-            stretches = [
-                LineStretch(int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], lengths[a:b])
-                for a, b in pairwise(starts)
-            ]
-            lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))
+            lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, kinds, through, lengths))
     _report_held(scene, report, held, set(order))
     return ends, lines
 

@@ -7,6 +7,7 @@ begins where the section changes. There, lines are joined by points, which trans
 from __future__ import annotations
 
 import re
+from itertools import chain
 from math import ceil, sqrt
 
 import numpy as np
@@ -32,13 +33,14 @@ _GRID = 200
 
 def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the lines of MoorDyn along each line of the model: sections with the same numbers are one line type."""
-    return [list(line.pieces(lambda each: alike(model, each.section))) for line in model.lines]
+    first = np.array(_alike(model))
+    return [list(line.stretches(first[line.kinds[:, :1]])) for line in model.lines]
 
 
-def alike(model: LineModel, section: int) -> int:
-    """Return the first section with the same numbers, as far as MoorDyn has them."""
+def _alike(model: LineModel) -> list[int]:
+    """Return for each section the first with the same numbers, as far as MoorDyn has them."""
     numbers = [_numbers(each) for each in model.sections]
-    return numbers.index(numbers[section])
+    return [numbers.index(each) for each in numbers]
 
 
 def segments(piece: LineStretch) -> int:
@@ -46,18 +48,20 @@ def segments(piece: LineStretch) -> int:
     elements = len(piece.lengths)
     if piece.is_even:
         return elements
-    return min(_FINEST * elements, max(elements, ceil(float(piece.lengths.sum() / piece.lengths.min()) - 1e-6)))
+    return min(_FINEST * elements, max(elements, ceil(float(piece.length / piece.lengths.min()) - 1e-6)))
 
 
 def write(model: LineModel, name: str) -> dict[str, str]:
     """Return the text of each file by its name; `name` is that of the input file."""
     names = TargetNames(model.report, "A-Za-z0-9_", 32)
-    first = [alike(model, at) for at in range(len(model.sections))]
+    first = _alike(model)
     taken = {at: names.take(model.sections[at].name, model.sections[at].where) for at in dict.fromkeys(first)}
     types = [taken[at] for at in first]
-    points, lines = _joined(model, types)
+    bed = model.levels(*model.places[:, :2].T)
+    points, lines = _joined(model, types, bed)
     soil = model.soil
-    width = {part.soil: model.sections[part.section].buoyancy for line in model.lines for part in line.stretches}
+    stretches = chain.from_iterable(line.stretches(line.kinds) for line in model.lines)
+    width = {each.soil: model.sections[each.section].buoyancy for each in stretches}
     own, heaviest = width[model.soils.index(soil)], max(each.mass for each in model.sections)
     stiffness, friction = soil.stiffness / own, soil.axial
     floor = re.sub("[^A-Za-z0-9]", "_", name.rpartition(".")[0] or name)
@@ -75,7 +79,7 @@ def write(model: LineModel, name: str) -> dict[str, str]:
         ("100.0", "TmaxIC"),
         ("1e-5", "threshIC"),
     ]
-    _report(model, types, stiffness, width)
+    _report(model, types, stiffness, width, bed)
     text = [
         *model.report.comments(TITLE),
         "--- LINE TYPES ---",
@@ -103,15 +107,14 @@ def _numbers(section: PipeSection) -> tuple[float, ...]:
     return (section.buoyancy, section.mass, section.axial, -1.0, section.bending, *water)
 
 
-def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
-    """Return the rows of points, ends first and joints second, and the rows of lines."""
-    on_bed = model.levels(*model.places[:, :2].T)
+def _joined(model: LineModel, types: list[str], bed: Floats) -> tuple[list[str], list[str]]:
+    """Return the rows of points, ends first and joints second, and the rows of lines; `bed` (n,) is below the nodes."""
     rows: list[str] = []
 
     def add_point(node: int, kind: str) -> None:
         x, y, z = model.places[node].tolist()
         # MoorDyn lowers the whole seabed to a point below it.
-        rows.append(f"{len(rows) + 1} {kind} {x!r} {y!r} {max(z, float(on_bed[node]))!r} 0 0 0 0")
+        rows.append(f"{len(rows) + 1} {kind} {x!r} {y!r} {max(z, float(bed[node]))!r} 0 0 0 0")
 
     for end in model.ends:
         add_point(end.node, "Coupled" if end.vessel else "Free" if end.joins else "Fixed")
@@ -123,8 +126,7 @@ def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
             if part is not parts[-1]:
                 add_point(int(part.nodes[-1]), "Free")
                 to = len(rows)
-            length = float(part.lengths.sum())
-            lines.append(f"{len(lines) + 1} {types[part.section]} {at} {to} {length!r} {segments(part)} p")
+            lines.append(f"{len(lines) + 1} {types[part.section]} {at} {to} {part.length!r} {segments(part)} p")
             at = to
     return rows, lines
 
@@ -132,8 +134,8 @@ def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
 def _time_step(model: LineModel) -> float:
     """Return two fifths of the time of the fastest wave along a segment, or of bending between nodes."""
     steps = []
-    for part in (part for parts in pieces(model) for part in parts):
-        section, size = model.sections[part.section], float(part.lengths.sum()) / segments(part)
+    for part in chain.from_iterable(pieces(model)):
+        section, size = model.sections[part.section], part.length / segments(part)
         steps.append(size / sqrt(section.axial / section.mass))
         if section.bending:
             steps.append(0.5 * size * size * sqrt(section.mass / section.bending))
@@ -190,7 +192,7 @@ def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
 # --------------------------------------------------------------------------------------------------------- report
 
 
-def _report(model: LineModel, types: list[str], stiffness: float, width: dict[int, float]) -> None:
+def _report(model: LineModel, types: list[str], stiffness: float, width: dict[int, float], bed: Floats) -> None:
     report, soil = model.report, model.soil
     report_sections(model, types, torsion=False)
     report_ends(report, model.ends, "Coupled")
@@ -200,17 +202,16 @@ def _report(model: LineModel, types: list[str], stiffness: float, width: dict[in
     target = "FrictionCoefficient, regularised by velocity"
     report_friction(report, model.soils, target, [(soil.axial, soil.axial)] * len(model.soils))
     report_resistance(report)
-    bed = model.levels(*model.places[:, :2].T)
     for end in model.ends:
         if (below := float(bed[end.node] - model.places[end.node, 2])) > 0.0 and not end.vessel:
             effect = "MoorDyn lowers its seabed to a point that is below it"
             place = model.scene.nodes.where(end.node)
             report.add(place, Outcome.APPROXIMATED, f"{distance(below)} higher, on the mudline", effect, "end")
     blocks = [where for where, _ in model.scene.deck.blocks("ELEMENT")]
-    for part in (part for parts in pieces(model) for part in parts):
+    for part in chain.from_iterable(pieces(model)):
         lengths, count = part.lengths, segments(part)
         if not part.is_even:
-            least, most, own = (shown(float(each), 3) for each in (lengths.min(), lengths.max(), lengths.sum() / count))
+            least, most, own = (shown(float(each), 3) for each in (lengths.min(), lengths.max(), part.length / count))
             effect = f"{len(lengths)} elements of {least} to {most} m: {count} segments of {own} m"
             report.add(blocks[-1], Outcome.APPROXIMATED, "equal segments", effect, "lengths")
     joints = sum(len(parts) - 1 for parts in pieces(model))

@@ -15,6 +15,7 @@ import numpy as np
 
 from mudline.basics.quantities import shown
 from mudline.model.contact.input import LawKind
+from mudline.model.contact.laws.soil import SOIL
 from mudline.model.scene.seabed import SeabedKind
 from mudline.tools.exporting.line_model import LineModel, LineStretch, report_ends, report_sections
 from mudline.tools.exporting.report import Outcome, TargetNames, one_line, short_name
@@ -36,15 +37,8 @@ _BENDING = "ConnectionxBendingStiffness, ConnectionyBendingStiffness"
 _SECTIONS = "LineType, Length, TargetSegmentLength"
 _PROFILE = "SeabedProfileDistanceFromSeabedOrigin, SeabedProfileDepth"
 _POINTS, _STEEPEST = 201, 45.0
-_DEFAULTS = (
-    ("factor", 6.0),
-    ("exponent", 0.25),
-    ("stiffness", 200.0),
-    ("suction", 0.6),
-    ("suction_decay", 1.0),
-    ("repenetration", 0.3),
-)
-"""Defaults of the nonlinear soil model, by the parameters of `*SEABED SOIL`."""
+_CARRIED = ("strength", "gradient", "buoyancy")
+"""Parameters of `*SEABED SOIL` that are written; the defaults of the others are those of OrcaFlex."""
 _BUOYANCY = 1.5
 """Default factor of the weight of displaced soil."""
 
@@ -53,12 +47,12 @@ Items = dict[str, object]
 
 def pieces(model: LineModel) -> list[list[LineStretch]]:
     """Return the sections of OrcaFlex along each line of the model: friction belongs to the line type."""
-    return [list(line.pieces(lambda each: (each.section, each.soil))) for line in model.lines]
+    return [list(line.stretches(line.kinds)) for line in model.lines]
 
 
 def segments(piece: LineStretch) -> int:
     """Return the number of segments of a section: its length over the target segment length, the shortest element."""
-    return max(1, round(float(piece.lengths.sum() / piece.lengths.min())))
+    return max(1, round(float(piece.length / piece.lengths.min())))
 
 
 def write(model: LineModel, name: str) -> dict[str, str]:
@@ -140,7 +134,7 @@ def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
     ends = [_end(model, line.begin, parts[0]), _end(model, line.end, parts[-1])]
     both, scene = (model.ends[line.begin], model.ends[line.end]), model.scene
     nodes = (f"node {scene.node_ids[end.node]}, line {scene.line_of(scene.nodes.where(end.node))}" for end in both)
-    sections = [[names[_key(model, each)], float(each.lengths.sum()), float(each.lengths.min())] for each in parts]
+    sections = [[names[_key(model, each)], each.length, float(each.lengths.min())] for each in parts]
     return {
         "Name": line.name,
         "#": f"from {', to '.join(nodes)}",
@@ -256,7 +250,8 @@ def _report(model: LineModel, names: dict[Key, str]) -> None:
 def _report_soil(model: LineModel) -> None:
     soil = model.soil
     numbers = dict(soil.parameters)
-    changed = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
+    others = (each for each in SOIL.parameters if each.name not in _CARRIED)
+    changed = [f"{each.name} {shown(numbers[each.name])}" for each in others if numbers[each.name] != each.default]
     effect = "strength and density; the other parameters are the defaults of the program, which are those of the deck"
     model.report.add(soil.where, Outcome.CARRIED, "Nonlinear soil model", effect)
     if changed:

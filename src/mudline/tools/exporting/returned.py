@@ -7,6 +7,7 @@ than the deck, positions are interpolated linearly between nodes, by arc length.
 from __future__ import annotations
 
 import re
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,10 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats
 
 if TYPE_CHECKING:
-    from mudline.tools.exporting.line_model import LineModel, LineStretch
+    from mudline.tools.exporting.line_model import ExportLine, LineModel, LineStretch
+
+    PartRead = tuple[LineStretch | ExportLine, Floats, Floats]
+    """A line or a part of it, with the arc lengths of the other program's nodes and their places."""
 
 _LINE_FILE = re.compile(r"(.*_Line)(\d+)(\.\w+)", re.IGNORECASE)
 _NODE = re.compile(r"node(\d+)p([xyz])")
@@ -52,11 +56,11 @@ def _moordyn(path: Path, model: LineModel) -> Positions:
     named = _LINE_FILE.fullmatch(path.name)
     if named is None:
         raise data_error(path.as_posix(), "the name of a file of a line ends in _Line and its number, as run_Line1.out")
-    parts = [part for parts in moordyn.pieces(model) for part in parts]
+    parts = [*chain.from_iterable(moordyn.pieces(model))]
     if int(named[2]) > len(parts):
         raise data_error(path.as_posix(), f"line {named[2]}: the deck is exported as {len(parts)} lines")
     time: Floats | None = None
-    parts_read: list[tuple[LineStretch, Floats, Floats]] = []
+    parts_read: list[PartRead] = []
     for number, part in enumerate(parts, 1):
         file = path.with_name(f"{named[1]}{number}{named[3]}")
         if not file.exists():
@@ -65,7 +69,7 @@ def _moordyn(path: Path, model: LineModel) -> Positions:
         if time is not None and not np.array_equal(time, times):
             raise data_error(file.as_posix(), f"other times than in the file of line {number - 1}")
         time = times
-        parts_read.append((part, np.linspace(0.0, float(part.lengths.sum()), places.shape[1]), places))
+        parts_read.append((part, np.linspace(0.0, part.length, places.shape[1]), places))
     return _positions(model, parts_read, time)
 
 
@@ -105,16 +109,15 @@ def _orcaflex(path: Path, model: LineModel, headings: dict[str, str]) -> Positio
     order = np.lexsort((columns["arc" if "arc" in columns else "node"], step))
     places = np.column_stack([columns[name] for name in _PLACE])[order].reshape(len(times), nodes, 3)
     parts = orcaflex.pieces(model)[0]
-    sizes = [np.full(count := orcaflex.segments(part), float(part.lengths.sum()) / count) for part in parts]
+    sizes = [np.full(count := orcaflex.segments(part), part.length / count) for part in parts]
     arcs = columns["arc"][order][:nodes] if "arc" in columns else np.append(0.0, np.cumsum(np.concatenate(sizes)))
     if len(arcs) != nodes:
         message = f"{nodes} nodes, the exported line has {len(arcs)}: give a table with the column Arc length (m)"
         raise data_error(file, message)
-    (whole,) = model.lines[0].pieces(lambda _: None)
-    return _positions(model, [(whole, arcs, places)], times if "time" in columns else None)
+    return _positions(model, [(model.lines[0], arcs, places)], times if "time" in columns else None)
 
 
-def _positions(model: LineModel, parts: list[tuple[LineStretch, Floats, Floats]], time: Floats | None) -> Positions:
+def _positions(model: LineModel, parts: list[PartRead], time: Floats | None) -> Positions:
     """Return positions of the deck's nodes, in its axes and units, interpolated by arc length."""
     steps, count = len(parts[0][2]), len(model.places)
     values, present = np.full((steps, count, 3), np.nan), np.zeros(count, dtype=np.bool_)

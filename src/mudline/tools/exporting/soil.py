@@ -21,6 +21,7 @@ from mudline.model.scene.deck_values import LARGEST_MOBILISATION
 from mudline.model.scene.laws import Extension, SeabedResistance
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
+from mudline.model.scene.sheet import friction_coefficients
 from mudline.model.scene.weights import pipe_of
 from mudline.tools.exporting.report import ExportReport, Outcome, short_name
 
@@ -105,22 +106,20 @@ def _friction(scene: ResolvedDeck, weight: Floats) -> Floats:
 
     Below the limit a spring is that of the mobilisation length, or that of a node over the length of an element.
     """
-    table = scene.resistance
-    coefficient = np.nan_to_num(table.column("friction"))
+    table, coefficient = scene.resistance, np.nan_to_num(friction_coefficients(scene))
     mobilisation = table.column("mobilisation")
     longest = np.fmin(table.column("characteristic"), LARGEST_MOBILISATION.get(scene.units, np.inf))
     length = np.where(mobilisation > 0.0, mobilisation, np.fmin(scene.length[:, None], longest))
     with np.errstate(all="ignore"):
         spring = np.nan_to_num(coefficient * weight[:, None] / length)
-    coefficient[:, 1] = np.where(table.column("lateral") > 0.0, 0.0, coefficient[:, 1])
+    held = table.column("lateral") > 0.0
     if (keyword := scene.extensions.get("SEABED FRICTION")) is not None:
         at = keyword.of_element
-        names = (("coefficients", "first"), ("coefficients", "second"), ("stiffness", "first"), ("stiffness", "second"))
-        first, second, along, across = (keyword.values(at, *path) for path in names)
-        own = np.column_stack([first, second])
+        along, across = (keyword.values(at, "stiffness", name) for name in ("first", "second"))
         springs = np.column_stack([along, np.where(np.isnan(across), along, across)])
-        coefficient = np.where(at[:, None] >= 0, np.nan_to_num(own), coefficient)
         spring = np.where(at[:, None] >= 0, springs / scene.length[:, None], spring)
+        held &= at < 0
+    coefficient[held, 1] = 0.0
     return np.column_stack([coefficient, spring])
 
 

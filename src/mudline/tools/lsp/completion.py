@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from itertools import islice
+from itertools import count, islice
 from typing import NamedTuple
 
 from lsprotocol import types
@@ -51,7 +51,7 @@ class _Cursor(NamedTuple):
 def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[types.CompletionItem]:
     """Return the completions at an offset; `snippets` says that the editor accepts placeholders."""
     document = analysis.document
-    line = document.source.line_span(document.line_at(offset) + 1)
+    line = document.source.line_around(offset)
     here = analysis.origin.tree.at(max(line.start - 1, 0))
     cursor = _Cursor(analysis, offset, document.text[line.start : offset], here, snippets)
     if head := _HEAD.match(cursor.before):
@@ -120,16 +120,14 @@ def _literal(text: str) -> str:
 def snippet(declared: type[Block]) -> str:
     """Return the example of a keyword with its values as placeholders."""
     head, *lines = declared.example.rstrip("\n").split("\n")
-    count = 0
+    numbers = count(1)
 
     def place(match: re.Match[str]) -> str:
-        nonlocal count
         text = match[0]
         if not text.strip():
             return text
-        count += 1
         blanks = text[: len(text) - len(text.lstrip())]
-        return f"{blanks}${{{count}:{_literal(text.strip())}}}"
+        return f"{blanks}${{{next(numbers)}:{_literal(text.strip())}}}"
 
     filled = []
     for line in lines:

@@ -174,7 +174,7 @@ def set_help(scene: Scene, name: str) -> str:
     if len(named_set.elements):
         words.append(listed_numbers(scene.element_ids[named_set.elements].tolist()))
         lengths = scene.length[named_set.elements]
-        words.append(_with_unit("total length", float(np.nansum(lengths)), UNITS[scene.units].unit("L")))
+        words.append(f"total length {np.nansum(lengths):g}{UNITS[scene.units].behind('L')}")
     if diameters := _diameters(scene, scene.diameter[named_set.elements]):
         words.append(diameters)
     if named_set.open:
@@ -187,14 +187,8 @@ def _diameters(scene: Scene, diameters: Floats) -> str:
     sizes = np.unique(diameters[~np.isnan(diameters)])
     if not len(sizes):
         return ""
-    unit = UNITS[scene.units].unit("L")
-    if len(sizes) == 1:
-        return _with_unit("D =", float(sizes[0]), unit)
-    return f"D = {sizes[0]:g} to {_with_unit('', float(sizes[-1]), unit).strip()}"
-
-
-def _with_unit(what: str, value: float, unit: str) -> str:
-    return f"{what} {value:g} {unit}".rstrip()
+    least = f"{sizes[0]:g} to " if len(sizes) > 1 else ""
+    return f"D = {least}{sizes[-1]:g}{UNITS[scene.units].behind('L')}"
 
 
 # -------------------------------------------------------------------------------------------------------------- curves
@@ -223,13 +217,13 @@ def segment_help(analysis: Analysis, value_site: Site) -> str:
 
 def _slope_text(scene: Scene, slope: float, sizes: list[float]) -> str:
     """Return a slope, and the stiffness for the diameters of the elements that follow the curve."""
-    system = UNITS[scene.units]
-    text = _with_unit("slope", slope, system.unit("F/L"))
+    names = UNITS[scene.units]
+    text = f"slope {slope:g}{names.behind('F/L')}"
     if not sizes:
         return text
     low, high = slope / sizes[-1], slope / sizes[0]
     stiffness = f"{low:g}" if low == high else f"{low:g} to {high:g}"
-    return f"{text}, stiffness {stiffness}{system.behind('F/L2')}" + f" ({_diameters(scene, np.array(sizes))})"
+    return f"{text}, stiffness {stiffness}{names.behind('F/L2')} ({_diameters(scene, np.array(sizes))})"
 
 
 def _title(entry: SceneCurve) -> str:
@@ -253,9 +247,8 @@ def curve_help(scene: Scene, entry: SceneCurve) -> str:
     if entry.curve is None:
         return f"{_title(entry)} cannot be evaluated"
     ratios, forces = entry.curve.ratios, entry.curve.forces
-    unit = UNITS[scene.units].unit("F/L")
     points = f"{counted(len(ratios), 'point')}, ratio {ratios[0]:g} to {ratios[-1]:g}"
-    force = _with_unit(f"force {forces[0]:g} to", float(forces[-1]), unit)
+    force = f"force {forces[0]:g} to {forces[-1]:g}{UNITS[scene.units].behind('F/L')}"
     followed = counted(len(scene.followers(index)), "element")
     return f"{_title(entry)}: {points}, {force}\n\nfollowed by {followed}"
 
@@ -281,12 +274,12 @@ def _node(scene: Scene, index: int) -> Iterator[str]:
 
 def _element(scene: Scene, index: int) -> Iterator[str]:
     nodes = [str(scene.node_ids[node]) if node >= 0 else "?" for node in scene.element_nodes[index].tolist()]
-    unit = UNITS[scene.units].unit("L")
+    unit = UNITS[scene.units].behind("L")
     facts = [f"nodes {' and '.join(nodes)}"]
     if not np.isnan(scene.length[index]):
-        facts.append(_with_unit("length", float(scene.length[index]), unit))
+        facts.append(f"length {scene.length[index]:g}{unit}")
     if not np.isnan(scene.diameter[index]):
-        facts.append(_with_unit("D =", float(scene.diameter[index]), unit))
+        facts.append(f"D = {scene.diameter[index]:g}{unit}")
     yield f"element **{scene.element_ids[index]}**: {', '.join(facts)}"
     sets = [shown(each.name) for each in scene.set_table.named.values() if index in each.elements]
     yield f"in {', '.join(sets[:LISTED])}" + (" and more" if len(sets) > LISTED else "")

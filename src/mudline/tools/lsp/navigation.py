@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 from lsprotocol import types
 
@@ -23,16 +22,10 @@ from mudline.model.scene.sets import ALL, LONGEST_NAME
 from mudline.tools.lsp import places
 from mudline.tools.lsp.decks import Analysis, Decks, OpenDocument, address_of, failed
 from mudline.tools.lsp.help import file_named, index_of
-from mudline.tools.lsp.places import WORDS, Occurrence, Site, Thing, occurrences, site
+from mudline.tools.lsp.places import Occurrence, Site, Thing, occurrences, site
 
-
-class Linked(NamedTuple):
-    """A deck of a chain with its text as a document, open or not."""
-
-    document: OpenDocument
-    deck: Deck
-
-
+Linked = tuple[OpenDocument, Deck]
+"""Text of a deck of a chain as a document, open or not, and the deck."""
 _NOT_IN_NAMES = ',="{}[]%/\r\n'
 
 
@@ -50,7 +43,7 @@ class Navigator:
         """Return the places where the object at an offset is defined; for the name of a file, the file."""
         named = places.at(self.analysis.names, offset)
         if named is not None:
-            return [_location(each.document, use.span) for each, use in self._named(named.thing) if use.defines]
+            return [_location(document, use.span) for document, use in self._named(named.thing) if use.defines]
         value = site(self.analysis.deck, offset)
         if value is not None and (file := file_named(value.slot.about.names, self.analysis.deck, value.value)):
             return [types.Location(address_of(file), types.Range(types.Position(0, 0), types.Position(0, 0)))]
@@ -61,7 +54,7 @@ class Navigator:
         named = places.at(self.analysis.names, offset)
         if named is not None:
             uses = self._named(named.thing)
-            return [_location(each.document, use.span) for each, use in uses if declaration or not use.defines]
+            return [_location(document, use.span) for document, use in uses if declaration or not use.defines]
         value = site(self.analysis.deck, offset)
         file = value and file_named(value.slot.about.names, self.analysis.deck, value.value)
         if file is None:
@@ -84,14 +77,14 @@ class Navigator:
 
         These are the decks in which an object is the same; a parameter belongs to its deck.
         """
-        yield Linked(self.analysis.document, self.analysis.deck)
+        yield self.analysis.document, self.analysis.deck
         if thing is not None and thing.kind is Names.PARAMETER:
             return
         for base in self.analysis.scene.deck.bases:
             if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
                 path = base.deck.folder / Path(base.deck.file).name
                 document = self.decks.at(path) or OpenDocument(address_of(path), base.deck.origin.source.text, 0)
-                yield Linked(document, base.deck)
+                yield document, base.deck
         own = self.analysis.document.path
         for uri in list(self.decks.documents) if own is not None else ():
             other = self.decks.analysis(uri)
@@ -99,14 +92,15 @@ class Navigator:
                 with other.reading():
                     bases = list(map(os.path.abspath, decks_before(other.deck)))
                 if os.path.abspath(own) in bases:  # noqa: PTH100 - links stay
-                    yield Linked(other.document, other.deck)
+                    yield other.document, other.deck
 
-    def _named(self, thing: Thing) -> Iterator[tuple[Linked, Occurrence]]:
-        for linked in self._linked(thing):
-            own = linked.deck is self.analysis.deck
-            for use in self.analysis.names if own else occurrences(linked.deck):
-                if use.thing == thing:
-                    yield linked, use
+    def _named(self, thing: Thing) -> Iterator[tuple[OpenDocument, Occurrence]]:
+        for document, deck in self._linked(thing):
+            yield from ((document, use) for use in self._uses(deck, thing))
+
+    def _uses(self, deck: Deck, thing: Thing) -> list[Occurrence]:
+        names = self.analysis.names if deck is self.analysis.deck else occurrences(deck)
+        return [use for use in names if use.thing == thing]
 
     def _numbered(self, value: Site) -> list[types.Location]:
         """Return the definition of the node or element whose number stands in a field."""
@@ -116,7 +110,7 @@ class Navigator:
             return []
         where = (scene.nodes if kind is Names.NODE else scene.table.numbered).where(index)
         deck, where = scene.deck.base_of(where) or (self.analysis.deck, where)
-        document = next((linked.document for linked in self._linked() if linked.deck is deck), None)
+        document = next((document for document, linked in self._linked() if linked is deck), None)
         if document is None or not isinstance(deck.origin, TextOrigin):
             return []
         span = deck.origin.span(where.inside(0)) or deck.origin.span(where)
@@ -129,7 +123,7 @@ class Navigator:
         named = places.at(self.analysis.names, offset)
         if named is None:
             raise failed("only sets, curves and parameters can be renamed")
-        word = WORDS[named.thing.kind]
+        word = named.thing.kind.name.lower()
         if named.thing == Thing(Names.SET, ALL):
             raise failed("set ALL is predefined and cannot be renamed")
         uses = [use for _, use in self._named(named.thing)]
@@ -150,22 +144,18 @@ class Navigator:
         named = self.renamed(offset)
         old, new = named.thing, places.thing(named.thing.kind, name)
         self._check(old, new, name)
-        edits: dict[int, tuple[Linked, list[TextEdit]]] = {}
-        for linked, use in self._named(old):
-            edits.setdefault(id(linked.deck), (linked, []))[1].append(TextEdit(use.span, name))
-        for linked, changes in edits.values():
-            text = apply_edits(linked.document.text, changes)
-            again = occurrences(read_deck(text.encode(), linked.document.name))
-            if sum(use.thing == new for use in again) < len(changes):
-                raise failed(f"{shown(name)} would not be read as this name everywhere: choose another name")
-        edits_of_files = {
-            linked.document.uri: [types.TextEdit(linked.document.range(edit.span), edit.text) for edit in changes]
-            for linked, changes in edits.values()
-        }
+        edits_of_files: dict[str, list[types.TextEdit]] = {}
+        for document, deck in self._linked(old):
+            edits = [TextEdit(use.span, name) for use in self._uses(deck, old)]
+            if edits:
+                again = occurrences(read_deck(apply_edits(document.text, edits).encode(), document.name))
+                if sum(use.thing == new for use in again) < len(edits):
+                    raise failed(f"{shown(name)} would not be read as this name everywhere: choose another name")
+                edits_of_files[document.uri] = [types.TextEdit(document.range(span), text) for span, text in edits]
         return types.WorkspaceEdit(changes=edits_of_files)
 
     def _check(self, old: Thing, new: Thing, name: str) -> None:
-        word = WORDS[old.kind]
+        word = old.kind.name.lower()
         if not name or name != name.strip() or any(letter in name for letter in _NOT_IN_NAMES):
             raise failed(f"{shown(name)} cannot be the name of a {word}: leave out commas, =, quotes and brackets")
         if len(name) > LONGEST_NAME:

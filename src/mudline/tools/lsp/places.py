@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple, cast
 
 from mudline.language.deck.model import Deck
-from mudline.language.deck.parameters import bare, folded, list_items, name_key
+from mudline.language.deck.parameters import PLACEHOLDER, bare, folded, list_items, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
 from mudline.language.expression.evaluation import CONSTANTS
@@ -26,10 +26,8 @@ KINDS = {
     Names.PARAMETER: Names.PARAMETER,
 }
 """Kind of the named object, for each way to name it."""
-WORDS = {Names.SET: "set", Names.CURVE: "curve", Names.PARAMETER: "parameter"}
 _SET = "SET"
 _EQUATION = re.compile(r"=\[(?:[^\[\]\r\n]|\[[^\[\]\r\n]*\])*\]")
-_PLACEHOLDER = re.compile(r"%([^%\r\n]+)%")
 
 
 class Thing(NamedTuple):
@@ -154,7 +152,7 @@ def _placeholders(origin: TextOrigin) -> Iterator[Occurrence]:
     text = origin.source.unified
     for start, end in _data(origin):
         if text.find("%", start, end) >= 0:
-            for match in _PLACEHOLDER.finditer(text, start, end):
+            for match in PLACEHOLDER.finditer(text, start, end):
                 yield Occurrence(thing(Names.PARAMETER, match[1]), match[1], Span(*match.span(1)), defines=False)
 
 

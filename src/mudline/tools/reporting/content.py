@@ -18,7 +18,7 @@ import numpy as np
 from mudline.basics.quantities import as_json, finite
 from mudline.basics.version import __version__
 from mudline.checks.context import LintContext
-from mudline.checks.engine import LintSettings, joined_problems, named_causes
+from mudline.checks.engine import LintSettings, joined_problems, naming_causes
 from mudline.checks.fixing import lint_one
 from mudline.checks.output.json import as_object
 from mudline.checks.registry import rules
@@ -26,7 +26,7 @@ from mudline.checks.suppression import suppressions
 from mudline.checks.verdict import Verdict, judge, refused
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
-from mudline.language.diagnostics import DeckError, Diagnostic
+from mudline.language.diagnostics import DeckError, Diagnostic, Where
 from mudline.language.syntax.source import Source
 from mudline.model.contact.input import LawKind
 from mudline.model.results.curve_rows import curve_rows
@@ -244,7 +244,7 @@ def _head(given: DeckFile, deck: Deck | None, verdict: Verdict, document: PageHe
             "fields": [{"name": name, "value": value} for name, value in document.fields],
         },
         "units": None if deck is None else deck.units,
-        "continues": [] if deck is None else [base.deck.file for base in deck.bases],
+        "continues": [],
         "verdict": verdict.row() | {"sentence": verdict.keywords.sentence()},
         "shown": [],
         "sections": {},
@@ -257,9 +257,10 @@ def _scene(deck: Deck | None) -> tuple[Scene | None, str]:
     if deck is None:
         return None, "the file holds no deck"
     try:
-        return resolve(deck).require(), ""
+        with naming_causes(deck):
+            return resolve(deck).require(), ""
     except DeckError as error:
-        return None, _reason(DeckError(named_causes(deck, error.diagnostics)))
+        return None, _reason(error)
 
 
 def _reason(error: DeckError) -> str:
@@ -269,26 +270,27 @@ def _reason(error: DeckError) -> str:
 
 # ------------------------------------------------------------------------------------------------------------- findings
 
+Heads = list[tuple[int, str]]
+"""Lines of the file where sections of the deck begin, with their names."""
+
 
 def _findings(given: DeckFile, settings: LintSettings, context: LintContext | None) -> dict[str, Any]:
     """Return the findings of `mudline lint`, and those hidden by comments, each with its section of the deck."""
+    deck = Deck(given.name) if context is None else context.deck
+    heads = [(deck.place(Where(at)).line, f"${section.name}") for at, section in enumerate(deck.sections)]
     findings = lint_one(given.name, given.data, settings, given.folder).found
-    reported = [_finding(finding, context) for finding in findings]
-    hidden = [] if context is None else _hidden(context, settings)
+    reported = [_finding(finding, heads) for finding in findings]
+    hidden = [] if context is None else _hidden(context, settings, heads)
     return {"reported": reported, "hidden": hidden}
 
 
-def _finding(finding: Diagnostic, context: LintContext | None) -> dict[str, Any]:
-    section = ""
-    if finding.line and context is not None and (text := context.text):
-        spot = text.tree.at(text.source.line_span(finding.line).start)
-        section = f"${spot.section.name}" if spot.section.head else ""
-    row = as_object(finding) | {"section": section}
+def _finding(finding: Diagnostic, heads: Heads) -> dict[str, Any]:
+    row = as_object(finding) | {"section": next((name for line, name in reversed(heads) if line <= finding.line), "")}
     del row["url"], row["file"]
     return row
 
 
-def _hidden(context: LintContext, settings: LintSettings) -> list[dict[str, Any]]:
+def _hidden(context: LintContext, settings: LintSettings, heads: Heads) -> list[dict[str, Any]]:
     comments = suppressions(context)
     if comments is None:
         return []
@@ -296,7 +298,7 @@ def _hidden(context: LintContext, settings: LintSettings) -> list[dict[str, Any]
     for problem in joined_problems(context, settings.rules, suppress=False):
         if comment := comments.hiding(problem):
             (finding,) = context.deck.diagnose([problem])
-            rows.append(_finding(finding, context) | {"reason": comment.reason})
+            rows.append(_finding(finding, heads) | {"reason": comment.reason})
     return rows
 
 

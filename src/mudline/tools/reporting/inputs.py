@@ -32,17 +32,14 @@ def inputs_of(scene: Scene) -> list[dict[str, Any]]:
     """Return a row for each input: its section or load case, keyword, values as a text, and place in its file."""
     rows = []
     cases = [index for index, section in enumerate(scene.deck.sections) if section.name == "LOAD CASE"]
-    for index, section in enumerate(scene.deck.sections):
-        if section.name not in ("MODEL", "LOAD CASE"):
-            continue
-        name = "$MODEL" if section.name == "MODEL" else "$LOAD CASE"
-        name += f" {cases.index(index) + 1}" if index in cases and len(cases) > 1 else ""
-        for number, block in enumerate(section.blocks):
-            subjects = (entry.subject for entry in catalogue.entries(block.keyword) if section.name in entry.sections)
-            if section.name == "LOAD CASE" or block.keyword in _MODEL or "vessels" in subjects:
-                values = "; ".join(filter(None, values_in_words(block, scene.units)))
-                row = {"section": name, "keyword": block.keyword, "values": values}
-                rows.append(row | _place(scene, Where(index, number)))
+    for where, section, block in scene.deck.every_block():
+        subjects = (entry.subject for entry in catalogue.entries(block.keyword) if section in entry.sections)
+        of_model = section == "MODEL" and (block.keyword in _MODEL or "vessels" in subjects)
+        if of_model or where.section in cases:
+            number = f" {cases.index(where.section) + 1}" if len(cases) > 1 and not of_model else ""
+            values = "; ".join(filter(None, values_in_words(block, scene.units)))
+            row = {"section": f"${section}{number}", "keyword": block.keyword, "values": values}
+            rows.append(row | _place(scene, where))
     return rows
 
 
