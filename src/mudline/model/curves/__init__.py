@@ -36,6 +36,10 @@ IndexArray = NDArray[np.intp]
 
 BLOCK = 32768
 """Numbers evaluated at a time, so that work arrays stay in the second-level cache."""
+_COUNTED_POINTS = 60
+"""Number of points up to which comparing with each point is faster than a binary search."""
+_RATIOS_PER_POINT = 50
+"""Number of ratios per point below which a binary search is faster."""
 _NORMAL = float(np.finfo(np.float64).tiny)
 
 
@@ -136,7 +140,7 @@ class ForceCurve:
     def _fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
         """Write force and slope at each ratio of a block; return True if every force is finite."""
         # a ratio below the second point, even below the first, belongs to the first segment
-        point = np.searchsorted(self.ratios[1:], ratio, side="right")
+        point = _passed(self.ratios[1:], ratio)
         offset = self.ratios.take(point)
         np.subtract(ratio, offset, out=offset)
         np.take(self._tails, point, out=slope, mode="clip")
@@ -151,7 +155,7 @@ class ForceCurve:
         Only an intermediate value may have overflowed: the force may be finite if added in two halves.
         """
         where = np.flatnonzero(~np.isfinite(force))
-        at = np.searchsorted(self.ratios[1:], ratio[where], side="right")
+        at = _passed(self.ratios[1:], ratio[where])
         half = self._tails[at] * (0.5 * ratio[where] - 0.5 * self.ratios[at])
         force[where] = self.forces[at] + half + half
         return where[~np.isfinite(force[where])]
@@ -163,7 +167,9 @@ class ForceCurve:
             ValueError: a ratio is NaN or infinite.
         """
         query = _finite_ratios(ratios)
-        return np.asarray(np.searchsorted(self.ratios[1:-1], query, side="right"))
+        segments = _passed(self.ratios[1:], query.reshape(-1))
+        np.minimum(segments, len(self.slopes) - 1, out=segments)
+        return segments.reshape(query.shape)
 
     def extrapolated(self, ratios: ArrayLike) -> NDArray[np.int8]:
         """Return -1 where `ratios` lie below the first point, 1 beyond the last, 0 between them and at them.
@@ -408,3 +414,15 @@ def _blocks(source: NDArray[np.generic], *targets: NDArray[np.generic]) -> np.nd
         casting="same_kind",
         buffersize=BLOCK,
     )
+
+
+def _passed(points: FloatArray, ratio: FloatArray) -> IndexArray:
+    """Return how many of the ascending points (n,) lie at or below each ratio (k,); any number up to n for NaN."""
+    if len(points) > _COUNTED_POINTS or len(ratio) < _RATIOS_PER_POINT * len(points):
+        return np.searchsorted(points, ratio, side="right")
+    count: NDArray[np.uint8] = (ratio >= points[0]).view(np.uint8)
+    more = np.empty(len(ratio), np.bool_)
+    for point in points[1:]:
+        np.greater_equal(ratio, point, out=more)
+        np.add(count, more.view(np.uint8), out=count)
+    return count.astype(np.intp)
