@@ -115,6 +115,14 @@ def test_samples_pass_and_their_sets_have_other_names(name: str, tmp_path: Path)
     assert not re.search(r"^C(\s|$)", text, re.MULTILINE)
 
 
+def test_a_file_that_a_set_names_is_found_at_its_setting() -> None:
+    deck = mudline.read(SAMPLES.parent / "tests/data/corpus/good/soil-from-file.keyxm")
+    with pytest.raises(DeckError) as caught:
+        anonymous(deck)
+    (found,) = caught.value.diagnostics
+    assert (found.line, found.column) == (16, 7)
+
+
 def test_a_deck_that_needs_a_file_is_refused_where_it_names_it(tmp_path: Path) -> None:
     bed = "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n"
     text = DECK.format(hidden="qq", nodes="1, 0.0, 0.0\n 2, 0.0, 5.0\n 3, 0.0, 10.0\n 4, 0.0, 15.0", bed=bed)
