@@ -230,10 +230,9 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are included; unused suppression comments are not.
     """
     noticed = context.noticed
-    advising = {rule.code.code: rule for rule in chosen if rule.check is not None and not rule.blocks}
-    codes = (rule.code.code for rule in chosen if rule.code.code not in advising)
-    found = [problem for code in codes for problem in noticed.get(code, ())]
-    for advice in findings(advising.values(), context):
+    noticing = (rule for rule in chosen if rule.check is None or rule.blocks)
+    found = [problem for rule in noticing for problem in noticed.get(rule.code.code, ())]
+    for advice in findings([rule for rule in chosen if rule.check is not None and not rule.blocks], context):
         # Advice does not keep a deck from being evaluated.
         found += [one if one.blocking is Blocks.NEVER else replace(one, blocks=Blocks.NEVER) for one in advice]
     found.sort(key=lambda problem: problem.code.code)
