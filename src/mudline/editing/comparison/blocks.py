@@ -60,9 +60,10 @@ def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
         shared = carried | own
         of_records = (each for each in walked if each.path[0] == keyed)
         for path, (first, *values) in groupby(of_records, lambda each: each.path[:2]):
-            name = naming.open(first.value, where.inside(*path), "", flat)
+            record: Record = first.value
+            name = naming.open(record, where.inside(*path), "", flat)
             flat |= {f"{name}/{inner}": entry for inner, entry in shared.items()}
-            naming.add(values, where, flat, {path: (f"{name}/", key_slot(type(first.value)))})
+            naming.add(values, where, flat, {path: (f"{name}/", key_slot(type(record)))})
     return flat
 
 
