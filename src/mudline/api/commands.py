@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import errno
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import NoneType
@@ -26,7 +24,7 @@ from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
     from mudline.checks.verdict import Judgement, Overview
-    from mudline.editing.comparison.decks import Comparison, DeckPair
+    from mudline.editing.comparison.decks import Comparison
     from mudline.editing.comparison.matrix import DiffRow
     from mudline.editing.migration.migrating import Verification
     from mudline.editing.migration.refusals import Continuations
@@ -271,24 +269,12 @@ def diff(
     if len(folders) == 1:
         raise ValueError(f"{folders[0]} is a folder, and the other one is not: give two decks or two folders")
     if folders:
-        pairs = deck_pairs(*folders, gitignore=gitignore)
+        pairs = compared.paired(folders[0], folders[1], Configured().takes, gitignore=gitignore)
         decks = [compared.compare_pair(pair, tolerance, strict, units) for pair in pairs]
         differences = [each for deck in decks for each in deck.comparison.differences]
         return compared.Comparison(differences, [each for deck in decks for each in deck.comparison.spelling], decks)
     first, second = (readable(given_deck(*each)).alone.placed() for each in ((before, "before"), (after, "after")))
     return compared.compare_decks(first, second, tolerance, strict=strict)
-
-
-def deck_pairs(before: str, after: str, *, gitignore: bool) -> list[DeckPair]:
-    """Return the decks of two folders in pairs of the same path, as `diff` takes them; raises OSError for no deck."""
-    from mudline.editing.comparison.decks import paired  # noqa: PLC0415 - as above
-    from mudline.language.deck.searching import Search, is_in_any_form  # noqa: PLC0415 - as above
-
-    searches = Search(before, gitignore), Search(after, gitignore)
-    pairs = [*paired(*searches, partial(Configured().takes, wanted=is_in_any_form))]
-    if not pairs:
-        raise FileNotFoundError(errno.ENOENT, "no deck in these folders", f"{before} and {after}")
-    return pairs
 
 
 def diff_matrix(

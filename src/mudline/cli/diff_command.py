@@ -16,16 +16,17 @@ import click
 import numpy as np
 
 from mudline.api import Deck, public
-from mudline.api.commands import deck_pairs, diff, diff_matrix
+from mudline.api.commands import diff, diff_matrix
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.quantities import csv_lines
 from mudline.basics.short_repr import counted
+from mudline.checks.configuration import Configured
 from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, Input, Inputs, many_files
 from mudline.cli.streams import emit, json_rows, notify_diagnostics
 from mudline.cli.view import Part, View
-from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckPair, DeckStatus, compare_pair
+from mudline.editing.comparison.decks import ComparedDeck, Comparison, DeckPair, DeckStatus, compare_pair, paired
 from mudline.editing.comparison.matrix import MATRIX_FORMAT, matrix_table, value_text
 from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
 from mudline.language.deck.loading import load_bytes
@@ -106,7 +107,7 @@ def command(
         raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
     if all(folders):
         try:
-            pairs = deck_pairs(before, after, gitignore=not every_file)
+            pairs = paired(before, after, Configured().takes, gitignore=not every_file)
         except FileNotFoundError:
             raise click.ClickException(f"{before}, {after}: no deck in these folders") from None
         results, code = _compared(pairs, (tolerance, strict, units), view, jobs)

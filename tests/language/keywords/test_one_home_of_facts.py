@@ -26,7 +26,7 @@ ROOT = Path(mudline.__file__).parent
 ASKING = frozenset(
     {
         *("blocks", "possible_definition", "misplaced", "missing", "report_missing", "has_unread_line_after"),
-        *("misread", "report_label", "rule_of_extension"),
+        *("misread", "records", "report_label", "rule_of_extension"),
         *("get", "add", "setdefault", "written"),
     }
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -28,7 +29,7 @@ from mudline.editing.comparison.model import Allowance, Difference, Pair, Side
 from mudline.language.deck.loading import load_path
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
-from mudline.language.deck.searching import Search
+from mudline.language.deck.searching import Search, is_in_any_form
 from mudline.language.diagnostics import DeckError, Diagnostic
 from mudline.language.keywords.catalogue import is_superseded, supersedes
 from mudline.model.contact.input import LawKind
@@ -122,16 +123,20 @@ def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: 
     return Comparison(differences, []) if strict else without_spelling(before, after, differences, tolerance)
 
 
-def paired(before: Search, after: Search, taken: Callable[[str], bool]) -> Iterator[DeckPair]:
-    """Yield each relative path of a file that is `taken` below one of two folders, in sorted order.
+def paired(before: str, after: str, takes: Callable[..., bool], *, gitignore: bool) -> list[DeckPair]:
+    """Return each relative path of a deck below one of two folders, in sorted order; what cannot be searched is first.
 
-    What cannot be searched comes first.
+    `takes` is that of a configuration. Raises FileNotFoundError for folders without decks.
     """
-    old, new = ({name: Path(path).as_posix() for name, path in search.files(taken)} for search in (before, after))
-    for error in (*before.unreadable, *after.unreadable):
-        yield DeckPair(str(error.filename).replace(os.sep, "/"), unread=error)
-    for name in sorted({*old, *new}):
-        yield DeckPair(name, old.get(name, ""), new.get(name, ""))
+    searches = Search(before, gitignore), Search(after, gitignore)
+    taken = partial(takes, wanted=is_in_any_form)
+    old, new = ({name: Path(path).as_posix() for name, path in search.files(taken)} for search in searches)
+    unreadable = [error for search in searches for error in search.unreadable]
+    pairs = [DeckPair(str(error.filename).replace(os.sep, "/"), unread=error) for error in unreadable]
+    pairs += [DeckPair(name, old.get(name, ""), new.get(name, "")) for name in sorted({*old, *new})]
+    if not pairs:
+        raise FileNotFoundError(errno.ENOENT, "no deck in these folders", f"{before} and {after}")
+    return pairs
 
 
 def compare_pair(
