@@ -88,6 +88,9 @@ def test_sets_of_elements_that_the_deck_does_not_show() -> None:
     assert differences(text, text.replace("1, 2, {x}", "{X}, 2, 1")) == []
     found = brief(differences(text, text.replace("GEN=5, 9", "GEN=5, 9, 2")))
     assert found == [("element sets/B", "5-9, SUBSET=a", "5, 7, 9, SUBSET=a")]
+    quoted = text.replace("SET=B", 'SET="B"').replace("SUBSET=A", 'SUBSET="A"')
+    assert not differences(text, quoted)
+    assert brief(differences(text, quoted.replace("GEN=5, 9", "GEN=5, 9, 2"))) == found
 
 
 @pytest.mark.parametrize("text", ["$MODEL\n*NODE\n 1, x, 0\n", "$MODEL\n*OCEAN\n =[depth], 1025, 9.81\n"])

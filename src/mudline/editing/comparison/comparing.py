@@ -25,7 +25,7 @@ from mudline.editing.comparison.model import (
     text_of,
     union,
 )
-from mudline.language.deck.parameters import Definition, folded
+from mudline.language.deck.parameters import Definition, folded, name_key
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.library.mesh import SetGenerate, SetList, SetSubset
 from mudline.language.keywords.table import Table
@@ -171,7 +171,7 @@ def _lines_of_sets(side: Side) -> dict[str, list[_SetLine]]:
     lines: dict[str, list[_SetLine]] = {}
     for _, block in side.scene.deck.blocks("ELEMENT SETS"):
         for entry in block.sets:
-            lines.setdefault(folded(str(entry.name)), []).extend(entry.members)
+            lines.setdefault(name_key(str(entry.name)), []).extend(entry.members)
     return lines
 
 
@@ -181,7 +181,7 @@ def _members(lines: Sequence[_SetLine]) -> str:
     for line in lines:
         match line:
             case SetSubset():
-                words.add(f"SUBSET={folded(line.subset)}")
+                words.add(f"SUBSET={name_key(line.subset)}")
             case SetList():
                 words |= {folded(item) for item in line.elements if isinstance(item, Label)}
                 spans.append(spans_of(np.array([item for item in line.elements if isinstance(item, int)], np.int64)))
