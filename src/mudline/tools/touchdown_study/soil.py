@@ -7,9 +7,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from mudline.model.contact import ContactInput, ContactModel
-from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.laws import PathLaw
-from mudline.model.contact.tables import LawTables
+from mudline.model.contact.tables import LawTables, NormalRows
 from mudline.model.contact.tangent import Triples
 
 ElementMatrix = Literal["mean", "consistent"]
@@ -38,13 +38,40 @@ class Reaction(NamedTuple):
     damping: tuple[FloatArray, FloatArray] | None = None
 
 
+class _Curves:
+    """Force-embedment curves of several elements, evaluated together like `ForceCurve`, a table row for each."""
+
+    def __init__(self, groups: list[NormalRows], diameter: FloatArray) -> None:
+        of_row = {row: each.curve for each in groups if each.curve for row in each.rows.tolist()}
+        self.rows: IndexArray = np.array(sorted(of_row), np.intp)
+        used = [of_row[row] for row in self.rows.tolist()]
+        width = max((len(curve.slopes) for curve in used), default=1) + 1
+        size = diameter[self.rows]
+        self._starts, self._forces, self._slopes = (np.full((len(used), width), fill) for fill in (np.inf, 0.0, 0.0))
+        for at, curve in enumerate(used):  # no force above the mudline, then the segments below it
+            first = int(curve.segment(0.0))
+            count = len(curve.slopes) - first + 1
+            self._starts[at, :count] = np.append(0.0, curve.ratios[first:-1] * size[at])
+            self._forces[at, 1:count] = curve.forces[first:-1]
+            self._slopes[at, 1:count] = curve.slopes[first:] / size[at]
+        self._each, self._borders = np.arange(len(used)), self._starts[:, 1:].copy()
+        self._borders[:, 0] = 0.0
+
+    def evaluate(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return forces per length and their derivatives to the depths (k,)."""
+        at = self._each, (z[:, None] > self._borders).sum(axis=1)
+        slope = self._slopes[at]
+        return self._forces[at] + slope * (z - self._starts[at]), slope
+
+
 class ElasticSoil:
     """Laws without memory: force and tangent follow from the depth alone."""
 
     def __init__(self, given: ContactInput, matrix: ElementMatrix = "mean") -> None:
-        tables, onset, self._length = LawTables(given), given.onset(), given.length
-        self._normal = [(each, given.diameter[each.rows], onset[each.rows]) for each in tables.normal]
-        self._nodal, self._cuts = tables.nodal, tables.cuts
+        tables, self._length = LawTables(given), given.length
+        self._onset, self._cut, self._diameter = given.onset(), given.tension == "cut", given.diameter
+        self._curves = _Curves(tables.normal, given.diameter)
+        self._others, self._nodal = [each for each in tables.normal if each.curve is None], tables.nodal
         self._carried = np.append(self._length, 0.0) + np.append(0.0, self._length)
         points, weights = (np.array([0.0]), np.array([2.0])) if matrix == "mean" else _GAUSS
         self._points = [
@@ -82,14 +109,15 @@ class ElasticSoil:
 
     def _forces(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return force per length of elements (m,) and its derivative to the depth."""
-        force, slope = np.zeros(len(z)), np.zeros(len(z))
-        for each, diameter, onset in self._normal:
-            depth, values = z[each.rows], np.empty((3, len(each.rows)))
-            each.write_reaction(depth, diameter, values)
-            acts = depth > onset
-            if self._cuts and each.curve is not None:
-                acts &= values[0] > 0.0
-            force[each.rows], slope[each.rows] = np.where(acts, values[0], 0.0), np.where(acts, values[2], 0.0)
+        rows, force, slope = self._curves.rows, np.zeros(len(z)), np.zeros(len(z))
+        force[rows], slope[rows] = self._curves.evaluate(z[rows])
+        if self._cut:
+            force, slope = np.where(force > 0.0, force, 0.0), np.where(force > 0.0, slope, 0.0)
+        for each in self._others:
+            depth = z[each.rows]
+            reaction = each.law.reaction(depth, self._diameter[each.rows], *each.columns)
+            touches: BoolArray = depth > self._onset[each.rows]
+            force[each.rows], slope[each.rows] = (np.where(touches, part, 0.0) for part in reaction)
         return force, slope
 
 
