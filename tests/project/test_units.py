@@ -52,3 +52,8 @@ def test_a_unit_behind_a_number() -> None:
 
 def test_what_is_no_dimension_has_no_size() -> None:
     assert [system.size(each) for system in UNITS.values() for each in ("", "-", "%", "Hz", "deg", "F L")] == [1.0] * 18
+
+
+def test_units_of_another_name_are_not_known() -> None:
+    assert UNITS["SI"] is UNITS["user"]
+    assert "SI" not in UNITS

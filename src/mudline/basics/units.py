@@ -64,11 +64,20 @@ class UnitSystem:
         return f" {unit}" if unit else ""
 
 
-UNITS = {
-    "metric": UnitSystem({"F": "N", "L": "m", "M": "kg", "T": "s"}),
-    "imperial": UnitSystem({"F": "lbf", "L": "ft", "M": "slug", "T": "s"}, POUND, FOOT, POUND / FOOT),
-    "user": UnitSystem({"F": "force", "L": "length", "M": "mass", "T": "time"}, known=False),
-}
+class _Systems(dict[str, UnitSystem]):
+    """Systems by name; any other name, as a contact input made by hand may have, is that of units not known."""
+
+    def __missing__(self, name: str) -> UnitSystem:
+        return self["user"]
+
+
+UNITS = _Systems(
+    {
+        "metric": UnitSystem({"F": "N", "L": "m", "M": "kg", "T": "s"}),
+        "imperial": UnitSystem({"F": "lbf", "L": "ft", "M": "slug", "T": "s"}, POUND, FOOT, POUND / FOOT),
+        "user": UnitSystem({"F": "force", "L": "length", "M": "mass", "T": "time"}, known=False),
+    }
+)
 """Unit systems that a deck may have, by their names."""
 TONNES = UnitSystem({"F": "kN", "L": "m", "M": "t", "T": "s"}, force=1e3, mass=1e3)
 """Units of a deck whose system is "user", but whose water and gravity show them."""
