@@ -94,6 +94,7 @@ BREAKS: list[tuple[Path, object, str]] = [
     (("format",), "mudline-deck/9", "mudline-deck/1"),
     (("format",), GONE, "mudline-deck/1"),
     (("units",), "metres", "units"),
+    (("units",), ["metric"], "units"),
     (("source",), 5, "source"),
     (("preamble",), "C title", "preamble"),
     (("comments",), [{"before": -1, "text": ""}], "comments[0].before"),

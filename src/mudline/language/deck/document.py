@@ -192,7 +192,7 @@ class _DocumentReader:
         self._only(document, ("format", "source", "units", "preamble", "comments", "sections"), ())
         deck.source = self._checked(str, document.get("source", ""), ("source",), "")
         deck.units = document.get("units", "user")
-        if deck.units not in UNITS:
+        if deck.units not in tuple(UNITS):  # it may be a list
             self.faults.add(("units",), f"expected one of {', '.join(UNITS)}, found {shown(deck.units)}")
         deck.preamble = self._lines(document.get("preamble", []), ("preamble",), "$")
         deck.comments = self._checked(list[Comment], document.get("comments", []), ("comments",), [])

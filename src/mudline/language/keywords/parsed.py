@@ -175,6 +175,12 @@ class Places:
         """Offsets of the lines that are passed through unchanged."""
         return frozenset(span.start for span in self.kept.values())
 
+    def kept_lines(self) -> list[tuple[Path, str]]:
+        """Return the paths and texts of the lines that are passed through, in the order of the text."""
+        return [
+            ((*path, "text"), self.text[slice(*span)]) for path, span in sorted(self.kept.items(), key=itemgetter(1))
+        ]
+
     def find(self, path: Path) -> Span:
         """Return the span of a value; for a value that was left out, the span of the nearest enclosing object."""
         for length in range(len(path), 0, -1):
