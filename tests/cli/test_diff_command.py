@@ -123,6 +123,26 @@ def test_a_file_of_a_folder_that_cannot_be_opened(place: Place, monkeypatch: pyt
     assert (one.name, one.why) == ("deck.keyxm", "new/deck.keyxm: permission denied")
 
 
+def test_a_folder_that_cannot_be_searched_and_a_deck_of_its_name(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("old/equal.keyxm", "new/equal.keyxm", "old/x.keyxm/deck.keyxm", "new/old/x.keyxm"):
+        place(CLEAN, name)
+    scan = os.scandir
+
+    def refused(folder: str) -> object:
+        if os.fspath(folder) == "old/x.keyxm":
+            raise PermissionError(13, "Permission denied", folder)
+        return scan(folder)
+
+    monkeypatch.setattr(os, "scandir", refused)
+    ran = run("diff", "old", "new")
+    assert (ran.code, ran.err) == (2, "mudline: old/x.keyxm: permission denied\n")
+    assert ran.out.splitlines() == [
+        "! old/x.keyxm: cannot be compared",
+        "+ old/x.keyxm: only in the second folder",
+        "3 decks: 1 added, 1 equal, 1 cannot be compared",
+    ]
+
+
 def test_a_fault_of_the_program_in_one_of_two_folders(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("old/deck.keyxm", "new/deck.keyxm", "old/equal.keyxm", "new/equal.keyxm"):
         place(CLEAN, name)

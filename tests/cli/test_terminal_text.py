@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import io
 import json
 import re
+import sys
 
 import pytest
 from rich.cells import cell_len
 
 from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.checks.output import form_module, visible
+from mudline.cli import streams
 from mudline.cli.lint_report import excerpt
 from mudline.language.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.language.syntax.source import Source
@@ -228,3 +231,17 @@ def test_fix_in_json() -> None:
         ],
     }
     assert [json.loads(line) for line in form_module("jsonl").write([found(fix=fix), found()], [])] == objects
+
+
+def test_a_bar_is_erased_before_what_waits_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Otherwise a line that waits would be written behind the bar."""
+    memory = io.BytesIO()
+    out = io.TextIOWrapper(io.BufferedWriter(memory), encoding="utf-8")
+    monkeypatch.setattr(out, "isatty", lambda: True)
+    seen: list[bytes] = []
+    monkeypatch.setattr(streams, "DRAWN", [lambda: seen.append(memory.getvalue())])
+    monkeypatch.setattr(sys, "stdout", out)
+    streams.emit(["first\n"])
+    streams.emit(["second\n"])
+    out.flush()
+    assert (seen, memory.getvalue()) == ([b"", b""], b"first\nsecond\n")

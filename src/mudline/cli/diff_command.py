@@ -179,20 +179,21 @@ def _compared(
     A pair fails if a deck cannot be read or has errors, or if the program fails.
     """
     inputs = Inputs([Input(pair.before or pair.name, pair.before) for pair in pairs])
-    pair_of, done = dict(zip(inputs.files, pairs, strict=True)), dict[Input, ComparedDeck]()
+    due, done = iter(pairs), dict[DeckPair, ComparedDeck]()
 
-    def prepared(file: Input) -> tuple[Input, tuple[DeckPair, float, bool, str | None]]:
-        return file, (pair_of[file], *options)
+    def prepared(_: Input) -> tuple[DeckPair, tuple[DeckPair, float, bool, str | None]]:
+        pair = next(due)
+        return pair, (pair, *options)
 
     with closing(many_files(inputs, prepared, compare_pair, view, jobs=jobs)) as results:
-        for file, deck in results:
+        for pair, deck in results:
             if deck is not None:
-                done[file] = deck
+                done[pair] = deck
                 notify_diagnostics(deck.errors)
                 if deck.unread is not None:
                     inputs.fail(deck.why)
     return [
-        done.get(file) or ComparedDeck(pair.name, DeckStatus.FAILED, crash=inputs.undone[file])
+        done.get(pair) or ComparedDeck(pair.name, DeckStatus.FAILED, crash=inputs.undone[file])
         for file, pair in zip(inputs.files, pairs, strict=True)
     ], inputs.code
 

@@ -86,9 +86,9 @@ def emit_deck(data: bytes) -> None:
 
 
 def _write(pieces: Iterable[bytes]) -> None:
-    sys.stdout.flush()
     if sys.stdout.isatty():
         erase()
+    sys.stdout.flush()
     for piece in pieces:
         rest = memoryview(piece)
         while rest:  # an unbuffered stream may accept only a part

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from typing import Any
 
 from mudline.language.keywords.library.loads import Boundary
@@ -67,3 +68,15 @@ def test_a_bare_part_has_neither_comments_nor_kept_lines() -> None:
             assert "Semi" not in repr(bare.model_dump())
             assert "vessel" not in repr(bare.model_dump())
     assert "inside" in repr(deck_of(BLOCKS).sections[0].blocks[1].model_dump())
+
+
+def test_nothing_is_left_for_a_search_of_memory() -> None:
+    """In a run over many decks Python does not search for cycles of objects: each would stay to the end."""
+    block = deck_of(BLOCKS).sections[1].blocks[0]
+    gc.collect()
+    gc.disable()
+    try:
+        rebuilt(block, lambda *_: 6, (Equation,))
+        assert gc.collect() == 0
+    finally:
+        gc.enable()
