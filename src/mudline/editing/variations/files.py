@@ -17,7 +17,7 @@ from mudline.basics.short_repr import short_repr
 from mudline.editing.variations.cases import Action, Addition, ParameterTargets
 from mudline.language.deck.forms import form_of
 from mudline.language.deck.loading import dump
-from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.model import Deck, raw_lines
 from mudline.language.deck.parameters import DEFINING
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Span
@@ -90,7 +90,7 @@ class Taken:
 # ------------------------------------------------------------------------------------------------------- other files
 
 _KEYS = ("FILE", "LAST")
-"""Settings that name a file in blocks without a model."""
+"""Settings that name a file in lines that are not read."""
 
 
 def companions(deck: Deck) -> list[str]:
@@ -106,11 +106,9 @@ def _written(deck: Deck) -> Iterator[str]:
     for _, section, block in deck.every_block():
         if section == DEFINING:
             continue
-        if isinstance(block, Opaque):
-            settings = settings_in(block.lines, words=False)
-            yield from (group.fields[0].text for group in settings if group.key in _KEYS)
-        else:
-            yield from (name for what in (Names.FILE, Names.DECK) for _, name in names_given(block, what))
+        settings = settings_in(raw_lines(block), words=False)
+        yield from (group.fields[0].text for group in settings if group.key in _KEYS)
+        yield from (name for what in (Names.FILE, Names.DECK) for _, name in names_given(block, what))
 
 
 # ------------------------------------------------------------------------------------------------ the text of each deck

@@ -14,6 +14,7 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.codes.fields import SYN002, SYN003, SYN015
 from mudline.language.codes.lines import SYN001, SYN004, SYN005
 from mudline.language.diagnostics import Problem, Severity, Span
+from mudline.language.keywords.contents import KeptLine
 from mudline.language.keywords.model import FieldSpec, ListRow, Part, Path, Record, record_schema
 from mudline.language.keywords.table import Column, Table, from_rows
 from mudline.language.keywords.text import Value, reads_as_name
@@ -107,7 +108,8 @@ def lose(built: ParsedRecord, positions: Sequence[int]) -> None:
 def construct(built: ParsedRecord) -> Part:
     """Return a model without validation, for a block with unreadable values.
 
-    A missing value is None. It is unknown if it is mandatory, or if a line that could not be used may contain it.
+    A missing value is None. It is unknown if it is mandatory, or if a line that could not be used may contain it. Lines
+    that are passed through are kept, comments are not.
     """
     ready: dict[str, Any] = {}
     for slot in record_schema(built.part).slots:
@@ -126,6 +128,8 @@ def construct(built: ParsedRecord) -> Part:
         else:
             ready[slot.name] = value
     ready["comments"] = []
+    if "unread" in built.values:
+        ready["unread"] = [KeptLine(**line) for line in built.values["unread"]]
     if "keyword" in built.values:
         ready["keyword"] = built.values["keyword"]
     return built.part.model_construct(_given(ready), **ready)
@@ -174,12 +178,6 @@ class Places:
     def kept_starts(self) -> frozenset[int]:
         """Offsets of the lines that are passed through unchanged."""
         return frozenset(span.start for span in self.kept.values())
-
-    def kept_lines(self) -> list[tuple[Path, str]]:
-        """Return the paths and texts of the lines that are passed through, in the order of the text."""
-        return [
-            ((*path, "text"), self.text[slice(*span)]) for path, span in sorted(self.kept.items(), key=itemgetter(1))
-        ]
 
     def find(self, path: Path) -> Span:
         """Return the span of a value; for a value that was left out, the span of the nearest enclosing object."""

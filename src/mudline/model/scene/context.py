@@ -132,21 +132,12 @@ class Context:
     @cached_property
     def unread_lines(self) -> list[tuple[Where, str, str]]:
         """Lines of the deck itself that are not read, without comments: place, keyword and text."""
-        origin = self.written.origin
-        read = origin.read if isinstance(origin, TextOrigin) else {}
-        found = list[tuple[Where, str, str]]()
-        for where, _, block in self.written.alone.every_block():
-            of_text = read.get(where[:2])
-            if of_text is None or not of_text.problems or type(block) is Opaque:
-                lines = unread_lines(block)
-            else:  # the model of a faulty block has no lines
-                lines = of_text.places.kept_lines()
-            found += [
-                (where._replace(path=path), block.keyword, line)
-                for path, line in lines
-                if not is_comment(line, words=True)
-            ]
-        return found
+        return [
+            (where._replace(path=path), block.keyword, line)
+            for where, _, block in self.written.alone.every_block()
+            for path, line in unread_lines(block)
+            if not is_comment(line, words=True)
+        ]
 
     @cached_property
     def unread_text(self) -> str:
