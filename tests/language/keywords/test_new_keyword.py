@@ -25,15 +25,11 @@ from tests.language.keywords.index import declared_entries
 
 NAME = "SEABED ANCHOR"
 MODULE = '''
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.fields import setting
-from mudline.language.keywords.model import (Block, Record)
-from mudline.language.keywords.values import Facts, Name, Names, Real
+from mudline.language.keywords.common import *
 
 
 class AnchorSet(Record):

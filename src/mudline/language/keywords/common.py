@@ -1,12 +1,14 @@
-"""Parts shared by keywords of several subjects."""
+"""Names for keyword modules, which import all of them with a star; parts shared by keywords of several subjects."""
 
 from typing import Annotated, Literal
 
-from mudline.language.keywords.fields import Expected, about, setting
-from mudline.language.keywords.model import Part, Row, Rows, record_schema
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import DIRECTION
-from mudline.language.keywords.values import Ident, Name, Names, Real, Whole
+from mudline.language.keywords.assigning import Records
+from mudline.language.keywords.contents import OpenBlock, OpenRecord
+from mudline.language.keywords.fields import Expected, FieldInfo, about, setting
+from mudline.language.keywords.model import Block, ListRow, Part, Record, Row, Rows, record_schema, rows
+from mudline.language.keywords.table import LARGEST_WHOLE, Table, misfit
+from mudline.language.keywords.usual import *
+from mudline.language.keywords.values import *
 
 NO_SET = (
     "lines before any SET= are read as those of SET=ALL, since the manual's default set of a force-embedment curve is "

@@ -4,13 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import require_one
-from mudline.language.keywords.contents import OpenBlock
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, STEP, STORED, Usual
-from mudline.language.keywords.values import Name, Names, Other, Real, Whole
+from mudline.language.keywords.common import *
 
 _PAGE = (
     "no page of the manual was found: the types are those of known decks, other words and lines are passed through "

@@ -4,13 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import Node
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record, Row, Rows
-from mudline.language.keywords.table import Table, misfit
-from mudline.language.keywords.usual import ALONG, ANY, COUNT, LIFT, Usual
-from mudline.language.keywords.values import Ident, Name, Names, Real, Whole
+from mudline.language.keywords.common import *
 
 
 class PointMass(Record):

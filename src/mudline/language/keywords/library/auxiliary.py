@@ -2,12 +2,7 @@
 
 from typing import Annotated, Literal
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import COUNT, NUMBER, POSITION
-from mudline.language.keywords.values import Name, Real, Whole
+from mudline.language.keywords.common import *
 
 
 class AuxiliaryRange(ListRow):

@@ -2,12 +2,7 @@
 
 from typing import Annotated, Literal
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import Node
-from mudline.language.keywords.fields import FieldInfo, about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import AXES, COMPONENT, LENGTH
-from mudline.language.keywords.values import Ident, Name, Names, Real
+from mudline.language.keywords.common import *
 
 
 def _component(axis: str, of: str) -> FieldInfo:

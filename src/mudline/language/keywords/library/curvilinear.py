@@ -2,13 +2,7 @@
 
 from typing import Annotated, Literal
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.contents import OpenBlock, OpenRecord
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import ALONG, COUNT, NUMBER
-from mudline.language.keywords.values import Facts, Ident, Names, Real, Whole
+from mudline.language.keywords.common import *
 
 _LINE = "one line with these four data in this order, as the page names the data and not the line; others are kept"
 

@@ -4,13 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import require_one
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row, Rows
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN, Usual
-from mudline.language.keywords.values import Name, Names, Real, Whole
+from mudline.language.keywords.common import *
 
 _INTERCEPT = Usual(low=1e4, why="standards give its logarithm, as 12.164 for 1.46E12 (DNV-RP-C203)")
 _SLOPE = Usual(2.0, 15.0, "steel has 3 to 5 (DNV-RP-C203), composites about 10")

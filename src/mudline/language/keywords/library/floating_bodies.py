@@ -5,13 +5,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from mudline.basics.short_repr import counted
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import require_one
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row, rows
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import ANY, DIRECTION, Usual
-from mudline.language.keywords.values import DataFile, Name, Names, Real
+from mudline.language.keywords.common import *
 
 Body = Annotated[Name, setting("FLOATING BODY", "floating body", names=Names.BODY)]
 

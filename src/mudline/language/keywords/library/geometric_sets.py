@@ -4,31 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import OLDER
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row, record_schema
-from mudline.language.keywords.table import misfit
-from mudline.language.keywords.usual import (
-    BENDING,
-    DENSE,
-    DRAG_WIDTH,
-    MASS_WIDTH,
-    MODEL,
-    NOT_KNOWN,
-    OTHER_WIDTH,
-    OUTER_WIDTH,
-    PIPE_WALL,
-    ROUND,
-    SHEAR,
-    STEEL_BORE,
-    STRETCH,
-    WALL,
-    WIDTH,
-    YOUNG,
-    Usual,
-)
-from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName
+from mudline.language.keywords.common import *
 
 _DO = "external diameter"
 _CURVE = "curve of non-linear {}; the number on the property line is then left empty"

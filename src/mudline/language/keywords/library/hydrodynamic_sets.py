@@ -4,14 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import curve_points
-from mudline.language.keywords.contents import OpenBlock, OpenRecord
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import ADDED_MASS, ALONG_DRAG, ANY, DRAG, INERTIA, LIFT
-from mudline.language.keywords.values import Facts, Name, Names, Other, Real, RealOrName
+from mudline.language.keywords.common import *
 
 _ORDER = (
     "the order, which is that of .das decks: a page on theory lists tangential before normal added mass, and the lines "

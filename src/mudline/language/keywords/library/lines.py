@@ -8,11 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import ALONG
-from mudline.language.keywords.values import LINE_SETS, Facts, Name, Names, OpaqueKeyword, Real
+from mudline.language.keywords.common import *
 
 
 class AdditionalSets(Record):

@@ -5,27 +5,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import OLDER, require_one
-from mudline.language.keywords.contents import OpenRecord
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record, Row
-from mudline.language.keywords.table import LARGEST_WHOLE
-from mudline.language.keywords.usual import ANY, LIQUID, NOT_KNOWN, OF_A_KIND, OF_THE_RUN, Usual
-from mudline.language.keywords.values import (
-    Count,
-    DataFile,
-    Equation,
-    Finite,
-    Ident,
-    Kind,
-    Name,
-    Names,
-    Other,
-    Real,
-    Whole,
-    WholeOrLabel,
-)
+from mudline.language.keywords.common import *
 
 _DOF = "degree of freedom: 1 vertical, 2 and 3 horizontal, 4 to 6 rotations"
 _VALUE = "displacement that is imposed: a length, of a rotation degrees"

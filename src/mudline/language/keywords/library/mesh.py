@@ -4,13 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import require_one
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import COMPONENT, COUNT, POSITION
-from mudline.language.keywords.values import Facts, Ident, Name, Names, Real, Whole
+from mudline.language.keywords.common import *
 
 
 class NodeRow(Row):

@@ -2,10 +2,7 @@
 
 from typing import Annotated, Literal
 
-from mudline.language.keywords.fields import about
-from mudline.language.keywords.model import Block
-from mudline.language.keywords.usual import GRAVITY, SEA_DENSITY, Usual
-from mudline.language.keywords.values import Facts, Real
+from mudline.language.keywords.common import *
 
 
 class Ocean(Block):

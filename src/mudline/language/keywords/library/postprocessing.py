@@ -4,13 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import Element, SetName
-from mudline.language.keywords.contents import OpenBlock
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record, Row
-from mudline.language.keywords.usual import ANY, BORE, COUNT, OF_THE_RUN, WIDTH
-from mudline.language.keywords.values import Ident, Name, Names, Other, Real, Whole
+from mudline.language.keywords.common import *
 
 
 class ElementSpan(ListRow):

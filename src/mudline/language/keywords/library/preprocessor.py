@@ -4,11 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record
-from mudline.language.keywords.usual import ANY, OF_THE_RUN
-from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName
+from mudline.language.keywords.common import *
 
 
 class Parameter(Record):

@@ -4,27 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import Direction, require_one
-from mudline.language.keywords.contents import OpenBlock, OpenRecord
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import (
-    ANY,
-    CUTOFF,
-    DIRECTIONS,
-    EXPONENT,
-    HARMONICS,
-    INCREMENT,
-    PEAKEDNESS,
-    PHILLIPS,
-    PROGRESSION,
-    SEA_FREQUENCY,
-    SEA_HEIGHT,
-    SEA_PERIOD,
-    Usual,
-)
-from mudline.language.keywords.values import Other, Real, Whole
+from mudline.language.keywords.common import *
 
 _MORE = "more forms follow on the page, which were not seen: their lines are passed through unchanged"
 _CUT = about("largest frequency", unit="Hz", above=0, usual=CUTOFF)

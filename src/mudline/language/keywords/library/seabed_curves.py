@@ -4,13 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import NO_SET, curve_points
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import CURVE_FORCE, MODEL, OF_ITS_CURVE
-from mudline.language.keywords.values import Facts, Name, Names, Real, Successor
+from mudline.language.keywords.common import *
 
 _PER_LENGTH = "the force is per unit length, as is the linear stiffness that the curve replaces"
 POINTS = "points of the curve in any order; at least two"

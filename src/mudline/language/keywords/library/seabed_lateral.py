@@ -4,21 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import SetName
-from mudline.language.keywords.contents import OpenBlock
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row, rows
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import (
-    ANY,
-    DIRECTION,
-    FRICTION,
-    MODEL,
-    POSITION,
-    Usual,
-)
-from mudline.language.keywords.values import Facts, OpaqueKeyword, Real
+from mudline.language.keywords.common import *
 
 _NEEDS = "; a direction whose coefficient is 0 stays free"
 

@@ -4,12 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import SetName
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import ANY, LEAST_BED, MODEL, Usual
-from mudline.language.keywords.values import Facts, Real
+from mudline.language.keywords.common import *
 
 
 class ContactSet(Record):

@@ -4,13 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import NO_SET
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row, rows
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import ANY, BED, FRICTION, LEAST_SIDE, MOBILISATION, MODEL, POSITION, Usual
-from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName, Successor
+from mudline.language.keywords.common import *
 
 _CONSTANT_FRICTION = (
     "no meaning: the manual names the field and says neither what it does nor its unit, so the value is kept and no "

@@ -4,11 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import DIRECTION, MODEL, POSITION
-from mudline.language.keywords.values import Facts, Name, Names, Real
+from mudline.language.keywords.common import *
 
 
 class PlanePoint(Row):

@@ -3,13 +3,7 @@
 from functools import partial
 from typing import Annotated, Literal
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import curve_points
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import ANY, BENT, E_CURVE, EA_CURVE, EI_CURVE, OF_ITS_CURVE, Usual
-from mudline.language.keywords.values import Name, Names, Real
+from mudline.language.keywords.common import *
 
 
 class MomentCurvaturePoint(Row):

@@ -4,14 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import curve_points
-from mudline.language.keywords.contents import OpenBlock, OpenRecord
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Row
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import OF_ITS_CURVE, SOIL_CURVES, Usual
-from mudline.language.keywords.values import Facts, Ident, Name, Names, Other, Real
+from mudline.language.keywords.common import *
 
 
 class SoilPoint(Row):

@@ -4,13 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import Element, Freedom, Node, curve_points, require_one
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import ANY, FORCE_CURVE, OF_A_KIND, OF_ITS_CURVE, ROTATION, ROTATION_CURVE, Usual
-from mudline.language.keywords.values import Facts, Ident, Name, Names, Real, RealOrName
+from mudline.language.keywords.common import *
 
 
 class SpringPoint(Row):

@@ -2,11 +2,7 @@
 
 from typing import Annotated, Literal
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import ANY, COUNT, OF_THE_RUN
-from mudline.language.keywords.values import Ident, Name, Names, Real, Title, Whole
+from mudline.language.keywords.common import *
 
 LOCATION = "place on the section, of outputs that have one"
 AXIS = "name of an axis system of *AXIS/VECTOR"

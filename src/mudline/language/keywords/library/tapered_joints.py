@@ -4,11 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import OUTER_WIDTH, PIPE_WALL, SHEAR, STEEL_BORE, WALL, WIDTH, YOUNG, Usual
-from mudline.language.keywords.values import Facts, Name, Names, Real
+from mudline.language.keywords.common import *
 
 _START = "the joint starts with the first element of its set, in the order of the set's lines"
 _PART = "the page was seen only in part: its default is that of the buoyancy diameter"

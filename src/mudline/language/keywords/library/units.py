@@ -2,9 +2,7 @@
 
 from typing import Annotated, Literal
 
-from mudline.language.keywords.fields import setting
-from mudline.language.keywords.model import Block
-from mudline.language.keywords.values import OpaqueKeyword
+from mudline.language.keywords.common import *
 
 TITLE = OpaqueKeyword(
     keyword="TITLE",

@@ -4,24 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import OLDER, Freedom, require_one
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row, rows
-from mudline.language.keywords.table import Table
-from mudline.language.keywords.usual import (
-    DIRECTION,
-    DRIFT_PERIOD,
-    HEEL,
-    LONG_WAVE,
-    OF_A_KIND,
-    OFFSET,
-    SHIFT_RAO,
-    TURN_RAO,
-    VERTICAL_OFFSET,
-    Usual,
-)
-from mudline.language.keywords.values import DataFile, Facts, Name, Names, Real
+from mudline.language.keywords.common import *
 
 _VESSEL = "vessel of *VESSEL or *VESSEL,INTEGRATED"
 Vessel = Annotated[Name, setting("VESSEL", _VESSEL, names=Names.VESSEL)]

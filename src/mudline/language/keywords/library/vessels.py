@@ -2,17 +2,7 @@
 
 from typing import Annotated, Literal
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.contents import OpenBlock, OpenRecord
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import (
-    DIRECTION,
-    POSITION,
-    VESSEL_HEIGHT,
-    VESSEL_SIZE,
-)
-from mudline.language.keywords.values import DataFile, Ident, Name, Names, Real
+from mudline.language.keywords.common import *
 
 
 class Position(Row):

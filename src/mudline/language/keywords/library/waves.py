@@ -4,24 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from mudline.language.keywords.assigning import Records
-from mudline.language.keywords.common import Direction, require_one
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.usual import (
-    AMPLITUDE,
-    ANY,
-    COUNT,
-    CURRENT,
-    DIRECTION,
-    HEIGHT,
-    OF_THE_RUN,
-    POSITION,
-    SEA_HEIGHT,
-    SEA_PERIOD,
-    WAVE_PERIOD,
-)
-from mudline.language.keywords.values import DataFile, Name, Names, Real, Whole
+from mudline.language.keywords.common import *
 
 _AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0, usual=AMPLITUDE)
 _LEAST = about("smallest period", unit="T", above=0, usual=WAVE_PERIOD)
