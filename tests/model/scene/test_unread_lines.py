@@ -61,10 +61,10 @@ def test_node_and_vessel_of_a_condition(lines: str, found: list[str]) -> None:
 
 
 def test_lines_of_a_block_that_has_an_error_too() -> None:
-    faulty = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1, 2, 3, 4\n TYPE=VESSEL\n 1, =[p]\n"
+    faulty = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1, 2, 3, 4\n TYPE=VESSEL\n 1, =[p]\n 7, Semi\n"
     found = diagnostics(scene_of(MODEL + faulty))
     first = MODEL.count("\n") + 4  # the line with an error of reading
-    assert [(one.code, one.line, one.column) for one in found] == [("REF013", first + 2, 5)]
+    assert [(one.code, one.line, one.column) for one in found] == [("REF013", first + 2, 5), ("REF006", first + 3, 2)]
 
 
 # --------------------------------------------------------------------------------------------------------------- curves
