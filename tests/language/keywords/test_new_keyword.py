@@ -27,8 +27,6 @@ NAME = "SEABED ANCHOR"
 MODULE = '''
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from mudline.language.keywords.common import *
 
 

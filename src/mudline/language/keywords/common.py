@@ -2,6 +2,8 @@
 
 from typing import Annotated, Literal
 
+from pydantic import BeforeValidator, Field, ValidationInfo, field_validator, model_validator
+
 from mudline.language.keywords.assigning import Records
 from mudline.language.keywords.contents import OpenBlock, OpenRecord
 from mudline.language.keywords.fields import Expected, FieldInfo, about, setting

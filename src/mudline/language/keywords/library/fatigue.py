@@ -2,8 +2,6 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
-
 from mudline.language.keywords.common import *
 
 _INTERCEPT = Usual(low=1e4, why="standards give its logarithm, as 12.164 for 1.46E12 (DNV-RP-C203)")

@@ -2,8 +2,6 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
-
 from mudline.basics.short_repr import counted
 from mudline.language.keywords.common import *
 

@@ -6,8 +6,6 @@ them are used.
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from mudline.language.keywords.common import *
 
 

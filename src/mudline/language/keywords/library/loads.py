@@ -3,8 +3,6 @@
 import math
 from typing import Annotated, Literal, Self
 
-from pydantic import BeforeValidator, Field, model_validator
-
 from mudline.language.keywords.common import *
 
 _DOF = "degree of freedom: 1 vertical, 2 and 3 horizontal, 4 to 6 rotations"

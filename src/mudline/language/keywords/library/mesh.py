@@ -2,8 +2,6 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import model_validator
-
 from mudline.language.keywords.common import *
 
 

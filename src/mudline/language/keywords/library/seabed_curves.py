@@ -2,8 +2,6 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from mudline.language.keywords.common import *
 
 _PER_LENGTH = "the force is per unit length, as is the linear stiffness that the curve replaces"

@@ -2,8 +2,6 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field, ValidationInfo, field_validator
-
 from mudline.language.keywords.common import *
 
 _NEEDS = "; a direction whose coefficient is 0 stays free"

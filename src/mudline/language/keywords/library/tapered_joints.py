@@ -2,8 +2,6 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from mudline.language.keywords.common import *
 
 _START = "the joint starts with the first element of its set, in the order of the set's lines"
