@@ -157,6 +157,7 @@ def test_nodes_without_an_element() -> None:
         (HELD.replace(" 4, 1\n", ""), [("GEO010", 4, 2)]),
         ("$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n GEN=1, 4, 1\n", []),
         ("$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1\n TYPE=VESSEL\n 4, Semi\n", []),
+        ("$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1\n NODE=4, 1\n TYPE=VESSEL\n 1, Semi\n 1, Semi\n", []),  # lost
         (HELD.replace(" 4, 1\n", "") + "*TOP TENSION\n 4, 1000.0\n", []),
         ("", []),
     ],

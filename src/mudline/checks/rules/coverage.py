@@ -25,7 +25,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.laws import SetLaw, present
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, first_of
-from mudline.model.scene.references import KEYWORD, is_of_vessels
+from mudline.model.scene.references import of_vessels
 from mudline.model.scene.sets import ALL, NamedSet
 
 GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)
@@ -221,10 +221,10 @@ def constant_and_vessel(context: LintContext) -> Iterator[Problem]:
     Finds: 15:2
     """
     scene = context.scene
-    follows = any(is_of_vessels(context.deck, where) for where, _ in context.written(KEYWORD, "LOAD CASE"))
-    held = scene.held if follows else []
-    for where, keyword, line in scene.context.unread_lines if held else ():
-        if keyword != KEYWORD or not is_of_vessels(context.deck, where):
+    vessels = of_vessels(scene.context)
+    held = scene.held if vessels else []
+    for where, _, line in scene.context.unread_lines if held else ():
+        if where[:2] not in vessels:
             continue
         first, *others = read_line(line, Span(0, len(line))).groups[0].fields
         node = read_number(first.text)

@@ -20,6 +20,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.tree import is_comment
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
@@ -264,7 +265,10 @@ def _is_whole(context: LintContext) -> bool:
 
 def _with_lines(context: LintContext) -> list[tuple[Where, str, Block | Opaque, list[str]]]:
     """Return place, section, block and lines that are passed through of every block of the scene's deck."""
-    return [(*placed, raw_lines(placed[2])) for placed in context.scene.deck.every_block()]
+    return [
+        (where, section, block, [line for line in raw_lines(block) if not is_comment(line, words=True)])
+        for where, section, block in context.scene.deck.every_block()
+    ]
 
 
 def lacks(context: LintContext, *gifts: Gift) -> bool:

@@ -96,7 +96,7 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
     reader = _BlockParser(text, raw, declared, last=False)
     if tree_of(declared.rule, reader.contents()) is None or reader.lost:
         return False
-    kept = len(reader.kept)
+    kept = reader.kept_lines
     block = read_block(text, raw, declared, last=False)
     if block.lost != kept or any(problem.weight is Severity.ERROR for problem in block.problems):
         return False
@@ -136,6 +136,11 @@ class _BlockParser:
             noticed += doubtful(self.problems)
             self._keep_all(odd, contents)
 
+    @property
+    def kept_lines(self) -> int:
+        """Number of lines that the block keeps; rows below each other are one piece of the text."""
+        return sum(piece.text.removesuffix("\n").count("\n") + 1 for piece in self.kept)
+
     def _attempt(self, contents: list[Content]) -> ReadBlock:
         mismatches: list[Mismatch] = []
         node = tree_of(self.declared.rule, contents)
@@ -152,7 +157,7 @@ class _BlockParser:
             self._report(mismatch)
         built = builder.build(self.declared, node)
         trailing = attach(self.comments, self.kept, built, self.places) if self.comments or self.kept else []
-        self.lost += builder.lost + len(self.kept)
+        self.lost += builder.lost + self.kept_lines
         model = self._model(built)
         problems = merge_per_line(self.text, self.problems)
         may_keep = "unread" in self.declared.model_fields

@@ -18,7 +18,7 @@ from mudline.basics.limits import MOST_REPORTED
 from mudline.language.codes.fields import SYN002, SYN006
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF002, REF005, REF006, REF010, REF015, REF019
-from mudline.language.deck.model import Deck, Opaque, raw_lines
+from mudline.language.deck.model import Opaque, raw_lines
 from mudline.language.deck.parameters import NoValueError, Parameters, name_key
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Span, Where
 from mudline.language.keywords import catalogue
@@ -213,9 +213,9 @@ def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> 
 
     `nodes` are those of the deck, None if other nodes are used.
     """
-    looking = _Looking(context, sets)
+    looking, vessels = _Looking(context, sets), of_vessels(context)
     for where, keyword, line in context.unread_lines:
-        holds = keyword == KEYWORD and is_of_vessels(context.written, where)
+        holds = where[:2] in vessels
         if len(line) > _LONGEST or not (holds or _WORTH.search(line)):
             continue
         kept = catalogue.opaque_keyword(context.written.sections[where.section].name, keyword)
@@ -225,10 +225,12 @@ def check_unread_lines(context: Context, sets: Sets, nodes: Numbered | None) -> 
                 looking.condition(where, keyword, line, nodes)
 
 
-def is_of_vessels(deck: Deck, where: Where) -> bool:
-    """Return True if the kept lines of a `*BOUNDARY` are those of TYPE=VESSEL."""
-    block = deck.sections[where.section].blocks[where.block]
-    return {held.type_ for held in getattr(block, "types", ()) if held.unread} == {Names.VESSEL.name}
+def of_vessels(context: Context) -> set[tuple[int, int]]:
+    """Return section and block of every `*BOUNDARY` whose lines that are not read are those of TYPE=VESSEL."""
+    places = {where[:2] for where, keyword, _ in context.unread_lines if keyword == KEYWORD}
+    blocks = {(section, block): context.written.sections[section].blocks[block] for section, block in places}
+    types = {at: {held.type_ for held in getattr(block, "types", ()) if held.unread} for at, block in blocks.items()}
+    return {at for at, given in types.items() if given == {Names.VESSEL.name}}
 
 
 def _uses_curve(groups: list[FieldGroup]) -> bool:
