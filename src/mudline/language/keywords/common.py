@@ -36,7 +36,7 @@ def require_one(part: Part, *names: str) -> None:
     labels = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
     if len(labels) != 1:
         expected = " or ".join(slot.label for slot in slots)
-        raise ValueError(f"{' and '.join(labels) or 'nothing'} is given: expected {expected}")
+        raise ValueError(f"{' and '.join(labels) or 'nothing'} {'are' if labels else 'is'} given: expected {expected}")
 
 
 def _is_empty(value: object) -> bool:
