@@ -139,12 +139,12 @@ def _soil(
         own = -1 if table is None else int(table.of_element[at])
         return None if table is None or own < 0 else table.places[own]
 
-    extension = {LawKind.SOIL: "SEABED SOIL", LawKind.NODAL: "SEABED CONTACT"}.get(kind, "")
+    extensions = {replaced.kind: replaced.extension for replaced in scene.replaced}
     law = scene.set_law(at)
     return ExportSoil(
         scene.law_names[at],
         kind,
-        place_in(scene.extensions.get(extension)) or (law.where if law else None),
+        place_in(extensions.get(kind)) or (law.where if law else None),
         diameter * units.length,
         weight * units.force / units.length,
         stiffness * units.size("F/L2"),
