@@ -207,7 +207,7 @@ def validate(
         units: "metric", "imperial" or "user", in place of the units in the files.
 
     Raises:
-        OSError: a file cannot be read, or a folder has no deck.
+        OSError: a file or a folder cannot be read, or a folder has no deck.
     """
     from mudline.checks.verdict import judge_content  # noqa: PLC0415 - as above
 
@@ -400,7 +400,7 @@ def report(  # noqa: PLR0913 - as many as the command has options
         logo: a picture for the head, .svg or .png.
 
     Raises:
-        OSError: a file cannot be read or written, or a folder has no deck.
+        OSError: a file or a folder cannot be read or written, or a folder has no deck.
         ImportError: the extra mudline[report] is not installed.
         ValueError: `sections` names none, a template or logo or a configuration cannot be used.
     """
