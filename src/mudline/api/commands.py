@@ -10,7 +10,7 @@ from pathlib import Path
 from types import NoneType
 from typing import TYPE_CHECKING, Any, Literal
 
-from mudline.api import Deck, content_as, decks_in, given_deck, given_rules, given_units, public
+from mudline.api import Deck, Paths, content_as, decks_in, given_deck, given_rules, given_units, public
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import csv_lines
@@ -197,9 +197,7 @@ def _again(deck: Deck, content: bytes, name: str = "") -> Deck:
 # ------------------------------------------------------------------------------------------------- verdicts and models
 
 
-def validate(
-    path: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], *, units: str | None = None
-) -> list[Judgement]:
+def validate(path: Paths, *, units: str | None = None) -> list[Judgement]:
     """Return the judgement on each deck: its `verdict` (`ok`, counts, `str()`), its `errors` and its `warnings`.
 
     Args:

@@ -13,6 +13,7 @@ from typing import NoReturn
 import click
 
 from mudline.basics.files import version_of
+from mudline.basics.outside import CONFIGURATIONS
 from mudline.basics.overwriting import claim
 from mudline.checks.configuration import CallerSettings, ConfigurationError, Configured
 from mudline.checks.output import TEXT, form_names
@@ -132,7 +133,6 @@ def command(
 WAIT = 0.3
 """Seconds between two checks for changes."""
 
-_CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
 _PRINTED = (TEXT, "concise")
 
 State = dict[str, tuple[int, ...]]
@@ -180,7 +180,7 @@ def state(paths: Sequence[str]) -> State:
 
 
 def _is_watched(path: str) -> bool:
-    return os.path.basename(path) in _CONFIGURATIONS or is_in_any_form(path)  # noqa: PTH119 - called for many files
+    return os.path.basename(path) in CONFIGURATIONS or is_in_any_form(path)  # noqa: PTH119 - called for many files
 
 
 def _near(given: str) -> Iterator[str]:
@@ -193,4 +193,4 @@ def _near(given: str) -> Iterator[str]:
         with suppress(OSError):
             yield from filter(_is_watched, map(str, Path(folder).iterdir()))
     for parent in Path(os.path.abspath(folder)).parents:  # noqa: PTH100 - links stay what they are called
-        yield from (str(parent / name) for name in _CONFIGURATIONS)
+        yield from (str(parent / name) for name in CONFIGURATIONS)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import unicodedata
@@ -201,14 +200,14 @@ MANIFEST = "manifest.json"
 """Name of the file in the output folder."""
 
 
-def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
-    """Return the list of the new decks as JSON text; it depends on the deck only, not on time or place of the run."""
+def manifest(source: str, decks: Iterable[PlannedDeck]) -> dict[str, object]:
+    """Return the list of the new decks for JSON; it depends on the deck only, not on time or place of the run."""
     listed = [
         {"file": deck.path, "description": deck.description}
         | {"variations": list(deck.variations), "parameters": dict(deck.values)}
         for deck in decks
     ]
-    return json.dumps({"format": FORMAT, "source": source, "decks": listed}, indent=1, ensure_ascii=False) + "\n"
+    return {"format": FORMAT, "source": source, "decks": listed}
 
 
 def conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> list[str]:
