@@ -17,16 +17,16 @@ from mudline.editing.variations.files import MANIFEST, ExpansionPlan, PlannedDec
 from mudline.editing.variations.names import CALLS, filled, placeholders, undefined_variation, variation_key
 from mudline.language.codes import EXP001
 from mudline.language.codes.references import REF013
+from mudline.language.deck.forms import KEYWORD
 from mudline.language.deck.keyword_text import as_text
+from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import DEFINING, NoValueError, unquoted
-from mudline.language.deck.reading import read_source
 from mudline.language.deck.searching import has_suffix
 from mudline.language.diagnostics import DeckError, Problem, Severity, Where
 from mudline.language.keywords.library.preprocessor import Combination, NamedVariation, ValueRange, VariedParameter
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation
-from mudline.language.syntax.source import Source
 
 _NOISE = Decimal("1e-9")
 """Share of a step by which a range may miss its last value: ends may come from equations."""
@@ -303,9 +303,8 @@ class _Planner:
             first.setdefault(tuple(deck.actions), deck)
         for deck in first.values():
             content = planned.content(replace(deck, path=""))
-            read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
-            faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]
-            for fault in read.diagnose(faults[:SHOWN_ROWS]):
+            read = load_bytes(content, deck.path, form=KEYWORD, units=self.deck.units)
+            for fault in read.diagnose(read.errors()[:SHOWN_ROWS]):
                 what = f"the new deck {shown(deck.path)} cannot be read"
                 self._report(f"{what}: line {fault.line}: {fault.message}", Where())
 
