@@ -110,8 +110,7 @@ class ComparedDeck(NamedTuple):
         """The first error in one line; "" without errors."""
         if self.unread is not None:
             return f"{Path(self.unread.filename).as_posix()}: {reason(self.unread)}"
-        errors = (f"{each.file}:{each.line}:{each.column}: {each.code} {each.message}" for each in self.errors)
-        return next(errors, self.crash)
+        return str(self.errors[0]) if self.errors else self.crash
 
 
 def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: bool = False) -> Comparison:
