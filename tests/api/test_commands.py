@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -102,6 +103,22 @@ def test_folders_are_searched_as_their_configuration_has_it(tmp_path: Path) -> N
     (tmp_path / "mudline.toml").write_text("exclude = 1\n", encoding="ascii")
     with pytest.raises(ValueError, match=r"mudline\.toml:1: exclude"):
         mudline.lint(tmp_path)
+
+
+def test_a_folder_that_cannot_be_searched_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "closed").mkdir()
+    (tmp_path / "deck.keyxm").write_bytes(RISER.read_bytes())
+    scan = os.scandir
+
+    def refused(folder: str) -> object:
+        if Path(folder).name == "closed":
+            raise PermissionError(13, "Permission denied", folder)
+        return scan(folder)
+
+    monkeypatch.setattr(os, "scandir", refused)
+    for judge in (mudline.validate, mudline.lint):
+        with pytest.raises(PermissionError, match="closed"):
+            judge(tmp_path)
 
 
 @pytest.mark.parametrize("to", ["moordyn", "orcaflex"])

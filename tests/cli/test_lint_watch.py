@@ -11,12 +11,15 @@ from types import SimpleNamespace
 
 import pytest
 
+import mudline
 from mudline.cli import lint_command
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 Steps = list[tuple[str, str | None]]
+
+IN_JSON = mudline.from_keyword(CLEAN, units="metric").to_json()
 
 LOOKS = 5000
 """More than any test needs: who looks so often waits for a change that will not be seen."""
@@ -88,8 +91,21 @@ def test_wrong_configuration_is_told_and_waited_out(folder: Path, place: Place) 
 
 
 def test_deck_beside_the_one_watched(folder: Path, place: Place) -> None:
-    outcome = watch(folder, [("base.keyxm", CLEAN)], place())
-    assert outcome.out.count("No findings in 1 file.") == 2
+    outcome = watch(folder, [("base.keyxm", CLEAN), ("base.json", IN_JSON)], place())
+    assert outcome.out.count("No findings in 1 file.") == 3
+
+
+def test_decks_in_json_also_in_a_new_folder(folder: Path, place: Place) -> None:
+    place(IN_JSON, "decks/a.json")
+    (folder / "decks" / "more").mkdir()
+    steps: Steps = [("decks/a.json", f"{IN_JSON}\n"), ("decks/more/b.json", IN_JSON), ("decks/a.json", None)]
+    outcome = watch(folder, steps, "decks")
+    assert [line for line in outcome.out.splitlines() if line.startswith("No")] == [
+        "No findings in 1 file.",
+        "No findings in 1 file.",
+        "No findings in 2 files.",
+        "No findings in 1 file.",
+    ]
 
 
 def test_change_is_seen_while_waiting(folder: Path, place: Place) -> None:

@@ -374,7 +374,7 @@ def lint(
         units: "metric", "imperial" or "user", in place of the units in the files.
 
     Raises:
-        OSError: a file cannot be read, or a folder has no deck.
+        OSError: a file or a folder cannot be read, or a folder has no deck.
         ValueError: a word names no rule, `path` is the text of a deck, or a configuration cannot be used.
         TypeError: `path` is not a path, or `select` or `ignore` are not several words.
     """
@@ -388,7 +388,8 @@ def decks_in(path: Paths, *, including: bool = False) -> list[Path]:
     """Return the given files and the decks in given folders, without those hidden by .gitignore files.
 
     Decks that the nearest configuration excludes are left out; those that it includes are taken with `including`.
-    Raises FileNotFoundError for a folder without a deck, and ConfigurationError for an unusable configuration.
+    Raises FileNotFoundError for a folder without a deck, another OSError for one that cannot be searched completely,
+    and ConfigurationError for an unusable configuration.
     """
     is_one = isinstance(path, str | bytes | os.PathLike | Mapping) or not isinstance(path, Iterable)
     files: list[Path] = []
@@ -404,9 +405,12 @@ def decks_in(path: Paths, *, including: bool = False) -> list[Path]:
 def _decks_below(folder: Path, *, including: bool) -> list[Path]:
     from mudline.language.deck.searching import Search, is_in_any_form  # noqa: PLC0415 - many name one file
 
-    own = Configured()
+    own, search = Configured(), Search(str(folder))
     taken = partial(own.takes, wanted=own.includes if including else is_in_any_form)
-    return [Path(file) for _, file in Search(str(folder)).files(taken)]
+    files = [Path(file) for _, file in search.files(taken)]
+    if search.unreadable:
+        raise search.unreadable[0]
+    return files
 
 
 def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:

@@ -10,7 +10,7 @@ from pathlib import Path
 from types import NoneType
 from typing import TYPE_CHECKING, Any, Literal
 
-from mudline.api import Deck, content_as, decks_in, given_deck, given_rules, given_units, public
+from mudline.api import Deck, Paths, content_as, decks_in, given_deck, given_rules, given_units, public
 from mudline.basics.arguments import expect, expect_number, expect_word, given_path, several
 from mudline.basics.files import write_atomically
 from mudline.basics.quantities import csv_lines
@@ -197,9 +197,7 @@ def _again(deck: Deck, content: bytes, name: str = "") -> Deck:
 # ------------------------------------------------------------------------------------------------- verdicts and models
 
 
-def validate(
-    path: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], *, units: str | None = None
-) -> list[Judgement]:
+def validate(path: Paths, *, units: str | None = None) -> list[Judgement]:
     """Return the judgement on each deck: its `verdict` (`ok`, counts, `str()`), its `errors` and its `warnings`.
 
     Args:
@@ -207,7 +205,7 @@ def validate(
         units: "metric", "imperial" or "user", in place of the units in the files.
 
     Raises:
-        OSError: a file cannot be read, or a folder has no deck.
+        OSError: a file or a folder cannot be read, or a folder has no deck.
     """
     from mudline.checks.verdict import judge_content  # noqa: PLC0415 - as above
 
@@ -400,7 +398,7 @@ def report(  # noqa: PLR0913 - as many as the command has options
         logo: a picture for the head, .svg or .png.
 
     Raises:
-        OSError: a file cannot be read or written, or a folder has no deck.
+        OSError: a file or a folder cannot be read or written, or a folder has no deck.
         ImportError: the extra mudline[report] is not installed.
         ValueError: `sections` names none, a template or logo or a configuration cannot be used.
     """

@@ -85,6 +85,11 @@ def version_of(path: str) -> tuple[int, ...]:
     return status.st_mtime_ns, status.st_size
 
 
+def reason(error: OSError) -> str:
+    """Return the reason why a file could not be read or written."""
+    return (error.strerror or str(error)).lower()
+
+
 def suffix_of(path: str | os.PathLike[str]) -> str:
     """Return the suffix of a file, which names its format, in lower case without the dot."""
     return PurePath(path).suffix.lower().removeprefix(".")

@@ -12,7 +12,9 @@ from pathlib import Path, PurePath
 
 from mudline.basics.contexts import holding
 
-_PROJECT = (".git", "mudline.toml", "pyproject.toml")
+CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
+"""Names of the file with the configuration of a folder; the first that is there applies."""
+_PROJECT = (".git", *CONFIGURATIONS)
 """Names that mark the folder of a project: a repository or a configuration."""
 _NO_FILES = ("/proc", "/sys", "/dev")
 """Folders of virtual files, whose content the system makes when they are read."""

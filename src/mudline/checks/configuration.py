@@ -10,6 +10,8 @@ from functools import lru_cache, reduce
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mudline.basics.files import reason
+from mudline.basics.outside import CONFIGURATIONS
 from mudline.basics.overwriting import reading
 from mudline.basics.paths import relative_path
 from mudline.basics.patterns import matches
@@ -129,8 +131,7 @@ def read_configuration(path: Path, code_fault: CodeFault | None = None) -> Confi
         try:
             at = _read_one(base, code_fault) or Configuration(base)
         except OSError as error:
-            why = (error.strerror or str(error)).lower()
-            raise ConfigurationError(f"{place}: {base.as_posix()} cannot be read: {why}") from error
+            raise ConfigurationError(f"{place}: {base.as_posix()} cannot be read: {reason(error)}") from error
         chain.append(base)
         whole.append(at)
     return reduce(lambda above, own: own.over(above), reversed(whole))
@@ -283,7 +284,7 @@ class Configured:
     def _upwards(self, folder: Path) -> Configuration:
         for place in (folder, *folder.parents):
             if place not in self._in_folder:
-                files = (place / name for name in ("mudline.toml", "pyproject.toml"))
+                files = (place / name for name in CONFIGURATIONS)
                 there = filter(os.path.isfile, files)  # Path raises for a folder that may not be searched
                 self._in_folder[place] = next(filter(None, map(self._read, there)), None)
             if here := self._in_folder[place]:
@@ -294,8 +295,8 @@ class Configured:
         try:
             return read_configuration(path, self.code_fault)
         except OSError as error:
-            what = f"{error.filename}: the configuration cannot be read"
-            raise ConfigurationError(f"{what}: {(error.strerror or str(error)).lower()}") from error
+            what = f"{error.filename}: the configuration cannot be read: {reason(error)}"
+            raise ConfigurationError(what) from error
 
     def includes(self, path: str) -> bool:
         """Return True if a file is a deck in any form, or `include` of its configuration takes it for one."""

@@ -15,13 +15,13 @@ from typing import NamedTuple
 import click
 
 from mudline.basics.display import Cell, DisplayColumn, DisplayTable, Value, text
-from mudline.basics.files import recording_looks
+from mudline.basics.files import reason, recording_looks
 from mudline.basics.quantities import shown
 from mudline.basics.short_repr import counted
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
 from mudline.cli.result_files import beside, result_files
-from mudline.cli.streams import UnwrittenError, reason, refusing
+from mudline.cli.streams import UnwrittenError, refusing
 from mudline.cli.view import View
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import DeckError, Diagnostic

@@ -14,10 +14,11 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, require_text, takes_deck
 from mudline.cli.streams import emit, notify, require, write_text
 from mudline.cli.view import View
-from mudline.language.deck.forms import SUFFIXES, form_names, form_of
+from mudline.language.deck.forms import KEYWORD, SUFFIXES, form_names, form_of
 from mudline.language.deck.keyword_text import with_raw_lines
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
+from mudline.language.deck.searching import has_suffix
 from mudline.language.diagnostics import DeckError
 from mudline.language.keywords.contents import is_refused
 from mudline.language.keywords.model import FEWEST_POINTS, Block
@@ -187,11 +188,10 @@ def _require_values(deck: Deck) -> None:
 def _form_of_output(output: str | None) -> str:
     if not output:
         raise click.UsageError("unknown format to write: give -o OUT with a suffix, or --to")
-    form, suffix = form_of(output), PurePath(output).suffix.lower()
-    if form == "keyword" and suffix not in SUFFIXES:
-        known = ", ".join(sorted({*SUFFIXES, *(f".{name}" for name in form_names() if name != form)}))
+    if not has_suffix(output):
+        known = ", ".join(sorted({*SUFFIXES, *(f".{name}" for name in form_names() if name != KEYWORD)}))
         raise click.UsageError(f"{output}: unknown file format (known: {known}): give --to {', '.join(form_names())}")
-    return form
+    return form_of(output)
 
 
 def sort_curves(deck: Deck) -> list[str]:

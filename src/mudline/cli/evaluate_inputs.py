@@ -17,6 +17,7 @@ from mudline.checks.engine import naming_causes
 from mudline.cli.options import ABOVE_ZERO, Adding, flag, gathered, input_option, option
 from mudline.cli.streams import naming
 from mudline.language.deck.model import Deck
+from mudline.language.deck.parameters import unquoted
 from mudline.model.contact.arrays import Positions
 from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.model.results.forms import TABLES
@@ -156,7 +157,7 @@ def read_headings(given: Sequence[str]) -> dict[str, str]:
         place = 0
         while place < len(text) or not text:
             match = _MAPPING.match(text, place)
-            if match is None or not (heading := _unquoted(match[2])):
+            if match is None or not (heading := unquoted(match[2])):
                 raise click.UsageError(f'--columns {text!r}: expected NAME=HEADING, as in node=Node,x="X [m]"')
             name, place = match[1].lower(), match.end()
             if name not in COLUMNS:
@@ -166,8 +167,3 @@ def read_headings(given: Sequence[str]) -> dict[str, str]:
                 raise click.UsageError(f"--columns gives {name} twice")
             headings[name] = heading
     return headings
-
-
-def _unquoted(text: str) -> str:
-    quoted = len(text) > 1 and text.startswith('"') and text.endswith('"')
-    return text[1:-1] if quoted else text

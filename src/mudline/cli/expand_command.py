@@ -11,9 +11,9 @@ from mudline.basics.short_repr import counted
 from mudline.checks.engine import readable
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import emit, make_folder, notify, notify_some, write_bytes, write_text
+from mudline.cli.streams import emit_json, make_folder, notify, notify_some, write_bytes
 from mudline.cli.view import View
-from mudline.editing.variations.files import MANIFEST, conflicts, lacking, manifest_text
+from mudline.editing.variations.files import MANIFEST, conflicts, lacking, manifest
 from mudline.editing.variations.planning import plan
 
 _COLUMNS = (
@@ -58,10 +58,10 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
             if view.verbose:
                 notify(path.as_posix())
         make_folder(folder)
-        write_text(folder / MANIFEST, [manifest_text(planned.source, planned.decks)])
+        emit_json(manifest(planned.source, planned.decks), str(folder / MANIFEST))
         view.note(f"{planned.source}: {counted(len(planned.decks), 'deck')} -> {folder.as_posix()}")
     if output_format == "json":
-        emit([manifest_text(planned.source, planned.decks)])
+        emit_json(manifest(planned.source, planned.decks))
     elif dry_run:
         printer = view.printer()
         printer.table(DisplayTable("Decks", _COLUMNS, planned.decks))

@@ -18,7 +18,7 @@ from mudline.checks.engine import LintSettings
 from mudline.checks.registry import plugin_files
 from mudline.checks.settings import Settings
 from mudline.cli import DONE, options
-from mudline.cli.inputs import GivenDecks, Input, Inputs, many_files, takes_decks
+from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, many_files, takes_decks
 from mudline.cli.lint_run import checked_settings
 from mudline.cli.streams import naming, notify, refusing, require
 from mudline.cli.view import View
@@ -48,7 +48,7 @@ def command(
     the extra mudline[archive].
     """
     require("mudline index", "archive", "duckdb", "pyarrow")
-    if "-" in decks.paths:
+    if STDIN in decks.paths:
         raise click.UsageError("standard input cannot be archived: give files or directories")
     settings = checked_settings(config, CallerSettings(units=decks.units), isolated=isolated)
     inputs = decks.collect(is_in_any_form)
@@ -57,7 +57,7 @@ def command(
     with refusing(ArchiveError, kind=click.ClickException), naming(output, "cannot be written: "):
         folder = Path(output)
         if any(_is_inside(path, folder) for path in decks.paths):
-            raise click.UsageError(f"-o {output}: an archive is a folder outside of the decks")
+            raise click.UsageError(f"-o {output}: the decks lie in this folder: give the archive a folder of its own")
         check_folder(folder)
         folder.mkdir(parents=True, exist_ok=True)
         inputs.files = [file for file in inputs.files if not _is_inside(file.place, folder)]

@@ -18,11 +18,11 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
 
 import click
 
-from mudline.basics.files import alone_at, write_atomically
+from mudline.basics.files import alone_at, reason, write_atomically
 from mudline.basics.overwriting import outputs, reading
 from mudline.checks.configuration import Configured
 from mudline.cli import WRONG_USAGE, options
-from mudline.cli.streams import naming, notify, notify_diagnostics, reason
+from mudline.cli.streams import naming, notify, notify_diagnostics
 from mudline.cli.view import Progress, View
 from mudline.language.deck import MARK
 from mudline.language.deck.forms import SUFFIXES, form_of

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cache, partial
 from pathlib import Path
 from typing import NoReturn
@@ -12,6 +13,7 @@ from typing import NoReturn
 import click
 
 from mudline.basics.files import version_of
+from mudline.basics.outside import CONFIGURATIONS
 from mudline.basics.overwriting import claim
 from mudline.checks.configuration import CallerSettings, ConfigurationError, Configured
 from mudline.checks.output import TEXT, form_names
@@ -21,7 +23,7 @@ from mudline.cli.lint_report import LintOptions, LintReport, outputs
 from mudline.cli.lint_run import checked_settings, lint_files
 from mudline.cli.streams import notify
 from mudline.cli.view import View
-from mudline.language.deck.searching import is_deck
+from mudline.language.deck.searching import Search, is_in_any_form
 from mudline.language.diagnostics import Severity
 from mudline.tools.running.remembered import of_working_folder
 
@@ -131,7 +133,6 @@ def command(
 WAIT = 0.3
 """Seconds between two checks for changes."""
 
-_CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
 _PRINTED = (TEXT, "concise")
 
 State = dict[str, tuple[int, ...]]
@@ -178,14 +179,18 @@ def state(paths: Sequence[str]) -> State:
     return {file: version_of(file) for path in paths for file in _near(path)}
 
 
+def _is_watched(path: str) -> bool:
+    return os.path.basename(path) in CONFIGURATIONS or is_in_any_form(path)  # noqa: PTH119 - called for many files
+
+
 def _near(given: str) -> Iterator[str]:
     """Yield the decks and configurations in or below a folder, or a file and those next to it; and those above."""
     folder = given if os.path.isdir(given) else os.path.dirname(given) or "."  # noqa: PTH112, PTH120 - Path raises for a long name
-    if folder != given:
+    if folder == given:
+        yield from (path for _, path in Search(folder, gitignore=False).files(_is_watched))
+    else:
         yield given
-    for place, folders, names in os.walk(folder):
-        yield from (os.path.join(place, name) for name in names if is_deck(name) or name in _CONFIGURATIONS)  # noqa: PTH118 - many files
-        if folder != given:
-            folders.clear()
+        with suppress(OSError):
+            yield from filter(_is_watched, map(str, Path(folder).iterdir()))
     for parent in Path(os.path.abspath(folder)).parents:  # noqa: PTH100 - links stay what they are called
-        yield from (str(parent / name) for name in _CONFIGURATIONS)
+        yield from (str(parent / name) for name in CONFIGURATIONS)

@@ -13,13 +13,14 @@ from typing import cast
 import click
 from click.shell_completion import shell_complete
 
+from mudline.basics.files import reason
 from mudline.basics.outside import refusing_outside
 from mudline.basics.overwriting import OverwriteError, refusing_overwriting
 from mudline.basics.spelling import nearest
 from mudline.basics.version import __version__
 from mudline.checks.configuration import ConfigurationError, refuses_outside
 from mudline.cli import CLOSED_PIPE, DONE, FOUND, WRONG_USAGE, options, streams
-from mudline.cli.streams import notify, notify_diagnostics, reason
+from mudline.cli.streams import notify, notify_diagnostics
 from mudline.language.diagnostics import DeckError, PluginError
 from mudline.tools.running.executors import RunError
 

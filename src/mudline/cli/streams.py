@@ -14,6 +14,7 @@ from typing import BinaryIO
 
 import click
 
+from mudline.basics.files import reason, replacement
 from mudline.basics.installed import install_hint
 from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.overwriting import claim
@@ -146,11 +147,6 @@ def require(what: str, extra: str, *libraries: str) -> None:
         raise click.ClickException(f"{what} needs {' and '.join(missing)}: {install_hint(extra)}")
 
 
-def reason(error: OSError) -> str:
-    """Return the reason why a file could not be read or written."""
-    return (error.strerror or str(error)).lower()
-
-
 # ----------------------------------------------------------------------------------------------------------- files
 
 
@@ -184,8 +180,6 @@ def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
 
     `synced` is as in `replacement`. Raises OverwriteError for a file that the run reads.
     """
-    from mudline.basics.files import replacement  # noqa: PLC0415 - help and faults of usage write no file
-
     claim(path)
     with naming(path, "cannot be written: ", UnwrittenError), replacement(path, synced=synced) as stream:
         yield stream

@@ -8,6 +8,7 @@ import pytest
 
 from mudline.editing.migration import refusals
 from mudline.editing.migration.refusals import Continuations, continuations_beside, misspelt
+from mudline.language.deck.loading import dump
 from tests.helpers.builders.decks import PIPE_WITH_SETS
 from tests.helpers.builders.scenes import deck_of
 
@@ -41,6 +42,14 @@ def test_a_deck_that_continues_another(tmp_path: Path, name: str, text: str, sea
         assert found.of(base) == ([child.as_posix()] if seabed else [])
         assert found.extend(base) is model
         assert (found.of(child), found.extend(child)) == ([], False)
+
+
+@pytest.mark.parametrize("form", ["json", "yaml"])
+def test_a_deck_in_another_form_continues_one(tmp_path: Path, form: str) -> None:
+    child = tmp_path / f"child.{form}"
+    child.write_text(dump(deck_of(f"$MODEL\n{CURVE}{GOES_ON}"), form), encoding="utf-8")
+    (tmp_path / "base.keyxm").write_text(BASE)
+    assert continuations_beside(deck_of(BASE, "base.keyxm", folder=tmp_path)) == ([child.as_posix()], True)
 
 
 def test_decks_that_continue_one_are_named_in_order_and_wherever_they_are(tmp_path: Path) -> None:

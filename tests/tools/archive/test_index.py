@@ -191,14 +191,14 @@ def test_the_content_is_the_same_whatever_the_comments_and_the_layout(tmp_path: 
     assert unread == [{"n": len(texts)}]
 
 
-def test_an_archive_lies_outside_of_the_decks(decks: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_archive_is_a_folder_of_its_own(decks: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither a folder of decks becomes one, nor is one indexed; below a folder that is searched it is left out."""
     before = sorted(decks.parent.rglob("*"))
     monkeypatch.chdir(decks)
     for target, path in ((decks, decks), (Path(), Path()), (decks.parent, decks), (decks, decks / "a.keyxm")):
         outcome = index(path, archive=target)
         assert outcome.code == 2
-        assert "an archive is a folder outside of the decks" in outcome.err
+        assert "the decks lie in this folder: give the archive a folder of its own" in outcome.err
     outcome = index(write(decks.parent / "x", x=deck()), archive=decks)
     assert outcome.code == 2
     assert "has other files and is not an archive: give a new or empty folder" in outcome.err

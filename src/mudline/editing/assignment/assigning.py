@@ -13,9 +13,11 @@ from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
 from mudline.editing.assignment.fields import FieldTarget, FieldValue, blocks_of, equals, target_of, values_of
 from mudline.editing.assignment.paths import Assignment, WrittenOperand, parse_path
+from mudline.language.deck.forms import KEYWORD
 from mudline.language.deck.keyword_text import same_meaning
+from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
-from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Diagnostic, Severity, Where, new_codes
 from mudline.language.keywords.contents import range_fault
 from mudline.language.keywords.model import Part, record_schema
@@ -23,7 +25,6 @@ from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import suggestion
 from mudline.language.keywords.values import WHOLE_KINDS, Equation, Kind
 from mudline.language.syntax.edits import TextEdit, edited_bytes, replacement_in_layout
-from mudline.language.syntax.source import Source
 from mudline.model.scene.model import resolve
 
 _BY_EQUATION = "{} is given by an equation, {}: change its parameters instead"
@@ -89,8 +90,7 @@ def assigned(deck: Deck, assignment: Assignment, target: FieldTarget, units: str
     except UnicodeEncodeError as error:
         message = f"the file's encoding, {origin.source.encoding}, lacks a character of the value"
         raise AssignmentError(message, line) from error
-    after = read_source(Source.from_bytes(content, deck.file), units=units)
-    after.folder = deck.folder
+    after = load_bytes(content, deck.file, form=KEYWORD, units=units, folder=deck.folder)
     _require_no_worse(deck, after, line)
     _require_only_this(deck, after, current, operand, assignment, line)
     return Assigned(edits, line, written, assignment.value)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from difflib import SequenceMatcher
+from collections.abc import Iterable, Iterator
 from functools import cache
 from itertools import groupby
 from typing import NamedTuple, TypeAlias
 
 from mudline.basics.limits import MOST_MATCHED
-from mudline.basics.spelling import common_start
+from mudline.basics.sequences import differing
 from mudline.editing.comparison.model import Difference, Pair, Side, Value, plain
 from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
@@ -258,14 +257,6 @@ def _opaque(name: _Name, before: _Lines, after: _Lines, pair: Pair) -> Iterator[
     section, keyword = name
     title = _group(name) if keyword else f"${section}" if section else "before the first section"
     old, new = ([line for line, _ in lines] for lines in (before, after))
-    start = common_start(old, new)
-    end = common_start(old[start:][::-1], new[start:][::-1])
-    before, after = before[start : len(before) - end], after[start : len(after) - end]
-    old, new = old[start : len(old) - end], new[start : len(new) - end]
-    edits: Sequence[tuple[str, int, int, int, int]] = [("replace", 0, len(old), 0, len(new))]
-    if len(old) + len(new) <= MOST_MATCHED:
-        edits = SequenceMatcher(None, old, new, autojunk=False).get_opcodes()
-    for tag, i, i_end, j, j_end in edits:
-        if tag != "equal":
-            yield from (pair.difference(title, f"{title}/lines", held, None) for held in before[i:i_end])
-            yield from (pair.difference(title, f"{title}/lines", None, held) for held in after[j:j_end])
+    for i, i_end, j, j_end in differing(old, new, MOST_MATCHED):
+        yield from (pair.difference(title, f"{title}/lines", held, None) for held in before[i:i_end])
+        yield from (pair.difference(title, f"{title}/lines", None, held) for held in after[j:j_end])

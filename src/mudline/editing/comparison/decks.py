@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mudline.basics.files import reason
 from mudline.editing.comparison.comparing import (
     Values,
     compare,
@@ -108,9 +109,8 @@ class ComparedDeck(NamedTuple):
     def why(self) -> str:
         """The first error in one line; "" without errors."""
         if self.unread is not None:
-            return f"{Path(self.unread.filename).as_posix()}: {(self.unread.strerror or str(self.unread)).lower()}"
-        errors = (f"{each.file}:{each.line}:{each.column}: {each.code} {each.message}" for each in self.errors)
-        return next(errors, self.crash)
+            return f"{Path(self.unread.filename).as_posix()}: {reason(self.unread)}"
+        return str(self.errors[0]) if self.errors else self.crash
 
 
 def compare_decks(first: Deck, second: Deck, tolerance: float = 0.0, *, strict: bool = False) -> Comparison:

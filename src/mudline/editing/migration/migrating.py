@@ -15,15 +15,14 @@ from mudline.editing.comparison.model import Difference
 from mudline.editing.migration.refusals import misspelt, refusals, superseded_blocks
 from mudline.editing.migration.rewriting import MigrationRewriter, unused_definitions
 from mudline.language.codes import MIG001
-from mudline.language.deck.forms import form_of
+from mudline.language.deck.forms import KEYWORD, form_of
 from mudline.language.deck.keyword_text import as_text
-from mudline.language.deck.loading import dump
+from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck, Opaque, Section
-from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import DeckError, Problem, new_codes
 from mudline.language.keywords.model import Part
 from mudline.language.syntax.edits import edited_bytes
-from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import is_comment
 from mudline.model.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.model.contact.model import ContactModel
@@ -74,8 +73,8 @@ def migrate(deck: Deck, continued_by: Sequence[str] = (), *, extended: bool = Fa
     rewriter = MigrationRewriter(as_text(deck), unused_definitions(before, extended=extended))
     edits, files = rewriter.rewrite()
     content = edited_bytes(rewriter.origin.source, edits)
-    changed = read_source(Source.from_bytes(content, deck.file), units=deck.units)
-    changed = replace(changed, source=deck.source, folder=deck.folder)
+    changed = load_bytes(content, deck.file, form=KEYWORD, units=deck.units, folder=deck.folder)
+    changed.source = deck.source
     after = _checked(deck, before, changed, files)
     if not isinstance(deck.origin, TextOrigin):
         content = dump(changed, form_of(deck.file)).encode()

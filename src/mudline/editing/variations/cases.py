@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple, cast
 
+from mudline.basics.files import reason
 from mudline.basics.limits import LARGEST_FILE
 from mudline.basics.outside import without_text
 from mudline.basics.spelling import Effort
@@ -182,7 +183,7 @@ def _content(path: Path, name: str) -> Source:
             raise RefusedError(f"{name} has more than {LARGEST_FILE // 10**6} million bytes: expected a block")
         source = Source.from_bytes(path.read_bytes(), name)
     except OSError as error:
-        raise RefusedError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}") from error
+        raise RefusedError(f"{name} cannot be read: {reason(error)}") from error
     faults = [problem.message for problem in source.problems if problem.weight is Severity.ERROR]
     if faults:
         raise RefusedError(f"{name}: {faults[0]}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import unicodedata
@@ -15,18 +14,17 @@ from typing import cast
 from mudline.basics.overwriting import is_read
 from mudline.basics.short_repr import short_repr
 from mudline.editing.variations.cases import Action, Addition, ParameterTargets
-from mudline.language.deck.forms import form_of
-from mudline.language.deck.loading import dump
+from mudline.language.deck.forms import KEYWORD, form_of
+from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.deck.model import Deck, raw_lines
 from mudline.language.deck.parameters import DEFINING
-from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.reader import all_keys
 from mudline.language.keywords.values import Names
 from mudline.language.syntax.edits import TextEdit, edited_bytes
-from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import RawBlock, RawSection, is_data
 from mudline.model.scene.deck_values import file_name, find_file, settings_in
 
@@ -159,9 +157,9 @@ class ExpansionPlan:
         """Return a new deck, in the form given by its path's suffix."""
         content = edited_bytes(cast("TextOrigin", self.deck.origin).source, self.edits(planned))
         form = form_of(planned.path)
-        if form == "keyword":
+        if form == KEYWORD:
             return content
-        read = read_source(Source.from_bytes(content, self.deck.file), units=self.deck.units)
+        read = load_bytes(content, self.deck.file, form=KEYWORD, units=self.deck.units)
         return dump(replace(read, source=planned.path.rpartition("/")[2]), form).encode()
 
     def edits(self, planned: PlannedDeck) -> list[TextEdit]:
@@ -201,14 +199,14 @@ MANIFEST = "manifest.json"
 """Name of the file in the output folder."""
 
 
-def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
-    """Return the list of the new decks as JSON text; it depends on the deck only, not on time or place of the run."""
+def manifest(source: str, decks: Iterable[PlannedDeck]) -> dict[str, object]:
+    """Return the list of the new decks for JSON; it depends on the deck only, not on time or place of the run."""
     listed = [
         {"file": deck.path, "description": deck.description}
         | {"variations": list(deck.variations), "parameters": dict(deck.values)}
         for deck in decks
     ]
-    return json.dumps({"format": FORMAT, "source": source, "decks": listed}, indent=1, ensure_ascii=False) + "\n"
+    return {"format": FORMAT, "source": source, "decks": listed}
 
 
 def conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> list[str]:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from mudline.language.keywords.library.preprocessor import VariedBlock
 
 
-def name_key(name: str) -> str:
+def variation_key(name: str) -> str:
     """Return the name of a variation in the form in which names are compared."""
     return folded(" ".join(unquoted(name).split()))
 
@@ -96,10 +96,10 @@ def undefined_variations(deck: Deck) -> Iterator[Problem]:
     ]
     if None in variations:
         return
-    known = {name_key(name): unquoted(name) for name in variations if name is not None}
+    known = {variation_key(name): unquoted(name) for name in variations if name is not None}
     effort = Effort()
     for name, where in called:
-        if name_key(name) not in known and name_key(name) != "all":
+        if variation_key(name) not in known and variation_key(name) != "all":
             yield undefined_variation(name, known.values(), effort, where)
 
 

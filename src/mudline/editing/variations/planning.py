@@ -14,22 +14,20 @@ from mudline.basics.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.basics.spelling import Effort
 from mudline.editing.variations.cases import Action, ParameterTarget, ParameterTargets, RefusedError, Values, action_of
 from mudline.editing.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, Taken, path_fault
-from mudline.editing.variations.names import CALLS, filled, name_key, placeholders, undefined_variation
+from mudline.editing.variations.names import CALLS, filled, placeholders, undefined_variation, variation_key
 from mudline.language.codes import EXP001
 from mudline.language.codes.references import REF013
-from mudline.language.deck.forms import SUFFIXES
+from mudline.language.deck.forms import KEYWORD
 from mudline.language.deck.keyword_text import as_text
+from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import DEFINING, NoValueError, unquoted
-from mudline.language.deck.reading import read_source
+from mudline.language.deck.searching import has_suffix
 from mudline.language.diagnostics import DeckError, Problem, Severity, Where
 from mudline.language.keywords.library.preprocessor import Combination, NamedVariation, ValueRange, VariedParameter
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Equation
-from mudline.language.syntax.source import Source
 
-_ENDINGS = (*SUFFIXES, ".json", ".yaml", ".yml")
-"""Suffixes of decks; a file name without one gets the suffix of the source."""
 _NOISE = Decimal("1e-9")
 """Share of a step by which a range may miss its last value: ends may come from equations."""
 MOST_LOOKED_AT = 1000
@@ -124,10 +122,10 @@ class _Planner:
             for index, variation in enumerate(block.variations):
                 place = where.inside("variations", index)
                 cases = self._cases(variation, place)
-                if name_key(cases.name) in by_name:
+                if variation_key(cases.name) in by_name:
                     message = f"variation {shown(cases.name)} is already defined: choose another name"
                     self._report(message, place.inside("name"))
-                by_name[name_key(cases.name)] = cases
+                by_name[variation_key(cases.name)] = cases
         return by_name
 
     def _cases(self, variation: NamedVariation, where: Where) -> Cases:
@@ -214,7 +212,7 @@ class _Planner:
         """Return the variations that a combination calls, each once; if it names none, all of the deck."""
         called: dict[str, Cases] = {}
         for path, _, name in combination.walk(CALLS):
-            key = name_key(name)
+            key = variation_key(name)
             if key in variations:
                 called[key] = variations[key]
             elif key == "all":
@@ -287,7 +285,7 @@ class _Planner:
         name = filename
         if name is None:
             name = source.name if subdirectory is not None else f"{source.stem} {counter}"
-        file = name if name.lower().endswith(_ENDINGS) else name + (source.suffix or ".keyx")
+        file = name if has_suffix(name) else name + (source.suffix or ".keyx")
         folders = [folder for folder in (directory, subdirectory) if folder is not None]
         path = "/".join([*(folder.removesuffix("/") or "/" for folder in folders), file])
         if missing:
@@ -305,9 +303,8 @@ class _Planner:
             first.setdefault(tuple(deck.actions), deck)
         for deck in first.values():
             content = planned.content(replace(deck, path=""))
-            read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
-            faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]
-            for fault in read.diagnose(faults[:SHOWN_ROWS]):
+            read = load_bytes(content, deck.path, form=KEYWORD, units=self.deck.units)
+            for fault in read.diagnose(read.errors()[:SHOWN_ROWS]):
                 what = f"the new deck {shown(deck.path)} cannot be read"
                 self._report(f"{what}: line {fault.line}: {fault.message}", Where())
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from mudline.basics.patterns import PathPattern, hides, read_pattern
 from mudline.language.deck import MARK
-from mudline.language.deck.forms import SUFFIXES, form_of
+from mudline.language.deck.forms import KEYWORD, SUFFIXES, form_of
 from mudline.language.syntax.source import KEY_FILE
 
 _HEAD = 4096
@@ -23,6 +23,11 @@ def is_deck(path: str) -> bool:
     return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - called for many files
 
 
+def has_suffix(path: str) -> bool:
+    """Return True if a path has a suffix of keyword text, JSON or YAML."""
+    return is_deck(path) or form_of(path) != KEYWORD
+
+
 def is_in_any_form(path: str) -> bool:
     """Return True if a file is a deck by its suffix, or one in JSON or YAML by the format name at its beginning.
 
@@ -30,7 +35,7 @@ def is_in_any_form(path: str) -> bool:
     """
     if is_deck(path):
         return True
-    if form_of(path) == "keyword" or not may_be_file(path):
+    if form_of(path) == KEYWORD or not may_be_file(path):
         return False
     head = _head(path)
     return head is None or MARK.encode() in head

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from difflib import SequenceMatcher
 from itertools import chain
 
-from mudline.basics.spelling import common_start
+from mudline.basics.sequences import differing
 from mudline.language.codes import DOC002
 from mudline.language.deck.keyword_text import Lines, canonical_text, pieces_of, to_keyword
 from mudline.language.deck.model import Deck
@@ -17,8 +17,8 @@ from mudline.language.syntax.fields import split
 from mudline.language.syntax.rows import line_spans
 from mudline.language.syntax.source import Source
 
-_MOST_COMPARED = 5_000
-"""Lines in a changed block, between the first and the last that differ, which are compared one by one."""
+_MOST_COMPARED = 10_000
+"""Lines of a block and its changed form, between the first and the last that differ, which are compared one by one."""
 
 
 def keyword_file(deck: Deck) -> bytes:
@@ -87,24 +87,17 @@ def _changed(source: Source, span: Span, old: Lines, new: Lines, *, by_lines: bo
     text = source.unified
     lines = [Span(line.start, line.start + len(text[slice(*line)].rstrip("\r\n"))) for line in line_spans(text, span)]
     lines = [line for line in lines if text[slice(*line)].strip()]
-    same = common_start(old, new)
-    rest = common_start(old[same:][::-1], new[same:][::-1])
-    middle = range(same, len(old) - rest)
     if not lines:
         yield TextEdit(Span(span.start, span.start), "".join(f"{line}\n" for line in new))
         return
     if not by_lines or len(lines) != len(old):
         yield TextEdit(Span(lines[0].start, lines[-1].end), "\n".join(new))
         return
-    few = max(len(middle), len(new) - rest - same) <= _MOST_COMPARED
-    matcher = SequenceMatcher(None, old[same : len(old) - rest], new[same : len(new) - rest], autojunk=False)
-    opcodes = matcher.get_opcodes() if few else [("replace", 0, len(middle), 0, len(new) - rest - same)]
-    for kind, *places in opcodes:
-        first, last, start, end = (place + same for place in places)
-        if kind == "replace" and last - first == end - start:
+    for first, last, start, end in differing(old, new, _MOST_COMPARED):
+        if last - first == end - start:
             for line, before, after in zip(lines[first:last], old[first:last], new[start:end], strict=True):
                 yield from _fields(source, line, before, after)
-        elif kind != "equal":
+        else:
             added = "".join(f"\n{line}" for line in new[start:end])
             # Each line goes with the line end before it: every piece but the preamble begins with its head.
             begin = lines[first - 1].end if first else span.start
