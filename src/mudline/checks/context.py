@@ -20,6 +20,7 @@ from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
 from mudline.language.keywords.catalogue import hold_in_soil
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
+from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import RawBlock
 from mudline.model.scene.context import placed_blocks
 from mudline.model.scene.context import records_of as records_of  # noqa: PLC0414 - rules take it here
@@ -54,6 +55,11 @@ class LintContext:
             self.deck = read_as_text(self.deck)
         if isinstance(self.deck.origin, TextOrigin):
             self.text = self.deck.origin
+
+    @cached_property
+    def source(self) -> Source:
+        """Source of the text, an empty one without a text."""
+        return self.text.source if self.text else Source(self.deck.file, "")
 
     @cached_property
     def scene(self) -> Scene:

@@ -177,7 +177,7 @@ def suppressions(context: LintContext) -> Suppressions | None:
             directive = _directive(text, leaf.span, suppressions_)
             if directive is not None and directive.order == "ignore":
                 waiting.append(directive)
-        elif leaf.kind is not LeafKind.BLANK:
+        elif waiting and leaf.kind is not LeafKind.BLANK:
             line = origin.source.position(leaf.span.start)[0]
             for directive in waiting:
                 directive.scope = ("line", line)

@@ -70,9 +70,9 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
     """Add the rows of a table that have a number; return the other rows."""
     ids, known = whole_numbers(numbers)
-    rows = np.flatnonzero(known)
-    gathered.add(DefinitionBatch(ids[rows], values[rows], where, table, rows))
-    unknown: list[int] = np.flatnonzero(~known)[: MOST_REPORTED + 1].tolist()
+    rows = known.nonzero()[0]
+    gathered.add(DefinitionBatch(ids[rows], values.take(rows, axis=0), where, table, rows))
+    unknown: list[int] = (~known).nonzero()[0][: MOST_REPORTED + 1].tolist()
     return unknown
 
 
@@ -256,7 +256,8 @@ def _lengths(ends: Indices, coordinates: Floats) -> Floats:
     for block in blocks_of(len(ends)):
         first, last = ends[block].T
         known = ((first >= 0) & (last >= 0)).nonzero()[0]
-        length[block][known] = distances(coordinates[first[known]], coordinates[last[known]])
+        points, others = (coordinates.take(end[known], axis=0) for end in (first, last))  # an index takes longer
+        length[block][known] = distances(points, others)
     return length
 
 

@@ -169,7 +169,8 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 10:2
     """
-    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & ~(scene.length > 0.0))
+    suspects = (~(scene.length > 0.0)).nonzero()[0]
+    known = suspects[(scene.element_nodes[suspects] >= 0).all(axis=1)]
     first, second = scene.element_nodes[known].T
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
     if not same.size:
