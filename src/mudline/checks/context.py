@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 from mudline.basics.limits import MOST_REPORTED
 from mudline.editing.variations.names import misspelt_actions, undefined_parameters, undefined_variations
 from mudline.language.deck.loading import load_bytes
-from mudline.language.deck.model import Deck, Origin
+from mudline.language.deck.model import Deck, NamedPlace, Origin
 from mudline.language.deck.parameters import DEFINING
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
@@ -81,6 +81,11 @@ class LintContext:
     @cached_property
     def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
         return placed_blocks(self.deck)
+
+    @cached_property
+    def names(self) -> list[NamedPlace]:
+        """`Deck.names` of the deck itself."""
+        return self.deck.names()
 
     @cached_property
     def keywords(self) -> set[str]:

@@ -357,7 +357,7 @@ class _Looking:
         definers = catalogue.definers(Names.VESSEL)
         if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
             return
-        vessels = self.context.names[Names.VESSEL].known
+        vessels = self.context.names(Names.VESSEL).known
         if vessels and name_key(name) not in vessels:
             message = f"vessel {shown(name)} is not defined{self.context.hint(name, vessels)}"
             self._warn(REF019, message, where, lacks=name)

@@ -80,7 +80,7 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 6:7
     """
-    for where, folder, name in missing_files(scene.context.written):
+    for where, folder, name in missing_files(scene.context.written, scene.context.names(Names.FILE).used):
         message, severity = not_found(folder, name)
         # Without the file of its profile the seabed is not known.
         profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
@@ -315,7 +315,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     unused = [name for key, name in names.items() if key not in scene.referenced]
     elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
     unused_hint = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
-    for name, where in ((use.name, use.where) for use in scene.context.names[Names.CURVE].used):
+    for name, where in ((use.name, use.where) for use in scene.context.names(Names.CURVE).used):
         if folded(name) in names:
             continue
         hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else unused_hint)
