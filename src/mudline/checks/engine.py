@@ -305,7 +305,7 @@ def joined_findings(context: LintContext, problems: list[Problem]) -> list[Probl
     They are in its `Problem.following`. Nothing is read or checked for this.
     """
     text, origin = context.text, context.deck.origin
-    if type(origin) is Origin:  # a program made the deck, which has no lines
+    if not problems or type(origin) is Origin:  # a program made the deck, which has no lines
         return problems
     by_code: dict[str, list[Problem]] = {}
     for problem in problems:

@@ -162,7 +162,7 @@ def _place(directive: Directive) -> str:
 
 
 def suppressions(context: LintContext) -> Suppressions | None:
-    """Return the suppressions of a deck's comments; None if it does not name mudline. Rules call `context.once`.
+    """Return the suppressions of a deck's comments; None if no comment is for mudline. Rules call `context.once`.
 
     A deck without a text, which a program made, hides nothing.
     """
@@ -182,7 +182,7 @@ def suppressions(context: LintContext) -> Suppressions | None:
             for directive in waiting:
                 directive.scope = ("line", line)
             waiting.clear()
-    return suppressions_
+    return suppressions_ if suppressions_.directives or suppressions_.misspelt else None
 
 
 def _directive(text: str, leaf: Span, found: Suppressions) -> Directive | None:

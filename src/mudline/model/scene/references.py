@@ -112,7 +112,8 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
             continue
         for kind, known in ((Names.NODE, nodes), (Names.ELEMENT, elements)):
             named = [(ident, where._replace(path=path)) for path, ident in idents_given(block, kind)]
-            check_numbers(context, kind, known, named)
+            if named:
+                check_numbers(context, kind, known, named)
 
 
 @cache
