@@ -93,11 +93,13 @@ def first_key(text: str, span: Span) -> str:
 
 
 def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field], list[Problem]]:
-    """Return the fields of a line, and the problems of its brackets; an unclosed bracket ends with the line."""
+    """Return the fields of a line without outer blanks, and the problems of its brackets.
+
+    An unclosed bracket ends with the line.
+    """
     start, end = span
     if end - start >= MOST_FIELDS and sum(text.count(mark, start, end) for mark in _MARKS) >= MOST_FIELDS:
         message = f"more than {MOST_FIELDS} fields or brackets on one line: is this a deck?"
-        start = trimmed(text, start, end).start
         return [], [Problem(SYN003, message, Span(start, start + 1))]
     fields: list[Field] = []
     problems: list[Problem] = []
