@@ -195,8 +195,7 @@ def _turning_back(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
 def _turned(scene: Scene, block: slice) -> list[int]:
     """Return the elements that run back over the element before them, which lies in the block."""
     ends = scene.element_nodes[block.start : block.stop + 1]
-    known = (ends >= 0).all(axis=1)
-    joined = (ends[:-1, 1] == ends[1:, 0]) & known[:-1] & known[1:]
+    joined = (ends[:-1, 1] == ends[1:, 0]) & (ends[:-1] >= 0).all(axis=1) & (ends[1:] >= 0).all(axis=1)
     if not joined.any():
         return []
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
@@ -221,8 +220,7 @@ def _skipping(scene: Scene) -> Iterator[Problem]:
         of_three, alike = ends[block.start : block.stop + 2], sections[block.start : block.stop + 2]
         before, here, behind = of_three[:-2], of_three[1:-1], of_three[2:]
         apart: Mask = (before[:, 1] == here[:, 0]) & (here[:, 1] != behind[:, 0])
-        known = (of_three >= 0).all(axis=1)
-        apart &= known[:-2] & known[1:-1] & known[2:]
+        apart &= (before >= 0).all(axis=1) & (here >= 0).all(axis=1) & (behind >= 0).all(axis=1)
         apart &= (alike[:-2] == alike[1:-1]) & (alike[1:-1] == alike[2:])
         parts.append(np.flatnonzero(apart) + 1 + block.start)
     skipping = np.concatenate(parts) if parts else np.zeros(0, np.intp)

@@ -39,28 +39,23 @@ def placed_leaves(context: LintContext) -> list[tuple[Leaf, ReadBlock | None, bo
 
     Each comes with its block, if that has a model, and True if it stands in a block without one.
     """
-    placed: list[tuple[Leaf, ReadBlock | None, bool]] = []
     text = context.text
-    if text is None:
-        return placed
-    for spot in text.tree.spots:
-        section, block = where = spot.where[:2]
-        read = text.read.get(where)
-        kept = read is None and section >= 0 and block >= 0
-        placed += [(leaf, read, kept) for leaf in spot.part.leaves]
-    return placed
+    spots = [(spot, text.read.get(spot.where[:2])) for spot in text.tree.spots] if text else []
+    return [
+        (leaf, read, read is None and spot.block is not None and spot.where.section >= 0)
+        for spot, read in spots
+        for leaf in spot.part.leaves
+    ]
 
 
 def data_blocks(context: LintContext) -> list[tuple[ReadBlock, list[Leaf]]]:
     """Return the blocks that have a model, with their lines that have values. Rules call `context.once`."""
-    found: list[tuple[ReadBlock, list[Leaf]]] = []
     text, source = context.text, context.source.unified
-    if text is None:
-        return found
-    for (section, number), read in text.read.items():
-        leaves = text.tree.sections[section].blocks[number].leaves
-        found.append((read, [leaf for leaf in leaves if leaf.kind in _DATA or is_setting(source, leaf, read)]))
-    return found
+    blocks = [(read, text.tree.sections[i].blocks[j].leaves) for (i, j), read in text.read.items()] if text else []
+    return [
+        (read, [leaf for leaf in leaves if leaf.kind in _DATA or is_setting(source, leaf, read)])
+        for read, leaves in blocks
+    ]
 
 
 def is_setting(source: str, leaf: Leaf, read: ReadBlock) -> bool:
