@@ -72,6 +72,11 @@ def cut(text: str, most: int) -> str:
     return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
+def printable(text: str, kept: str = "") -> str:
+    """Return the text with a replacement mark for every character that does not print, except those that are kept."""
+    return text if text.isprintable() else "".join(c if c.isprintable() or c in kept else "\ufffd" for c in text)
+
+
 def counted(number: int, thing: str) -> str:
     """Return a number with its noun: `1 set`, `2 sets`."""
     return f"{number} {thing}{'' if number == 1 else 's'}"

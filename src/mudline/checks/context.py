@@ -13,13 +13,14 @@ from typing import Any, NamedTuple, TypeVar
 from mudline.basics.limits import MOST_REPORTED
 from mudline.editing.variations.names import misspelt_actions, undefined_parameters, undefined_variations
 from mudline.language.deck.loading import load_bytes
-from mudline.language.deck.model import Deck, Origin
+from mudline.language.deck.model import Deck, NamedPlace, Origin
 from mudline.language.deck.parameters import DEFINING
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
 from mudline.language.keywords.catalogue import hold_in_soil
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
+from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import RawBlock
 from mudline.model.scene.context import placed_blocks
 from mudline.model.scene.context import records_of as records_of  # noqa: PLC0414 - rules take it here
@@ -56,6 +57,11 @@ class LintContext:
             self.text = self.deck.origin
 
     @cached_property
+    def source(self) -> Source:
+        """Source of the text, an empty one without a text."""
+        return self.text.source if self.text else Source(self.deck.file, "")
+
+    @cached_property
     def scene(self) -> Scene:
         """Scene of the deck."""
         return resolve(self.deck)
@@ -75,6 +81,11 @@ class LintContext:
     @cached_property
     def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
         return placed_blocks(self.deck)
+
+    @cached_property
+    def names(self) -> list[NamedPlace]:
+        """`Deck.names` of the deck itself."""
+        return self.deck.names()
 
     @cached_property
     def keywords(self) -> set[str]:

@@ -232,9 +232,10 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     noticed = context.noticed
     noticing = (rule for rule in chosen if rule.check is None or rule.blocks)
     found = [problem for rule in noticing for problem in noticed.get(rule.code.code, ())]
-    for advice in findings([rule for rule in chosen if rule.check is not None and not rule.blocks], context):
-        # Advice does not keep a deck from being evaluated.
-        found += [one if one.blocking is Blocks.NEVER else replace(one, blocks=Blocks.NEVER) for one in advice]
+    advising = [rule for rule in chosen if rule.check is not None and not rule.blocks]
+    advice = chain.from_iterable(findings(advising, context))
+    # Advice does not keep a deck from being evaluated.
+    found += [one if one.blocking is Blocks.NEVER else replace(one, blocks=Blocks.NEVER) for one in advice]
     found.sort(key=lambda problem: problem.code.code)
     return [problem for problem in found if not of_base(context.deck, problem)]
 
@@ -304,7 +305,7 @@ def joined_findings(context: LintContext, problems: list[Problem]) -> list[Probl
     They are in its `Problem.following`. Nothing is read or checked for this.
     """
     text, origin = context.text, context.deck.origin
-    if type(origin) is Origin:  # a program made the deck, which has no lines
+    if not problems or type(origin) is Origin:  # a program made the deck, which has no lines
         return problems
     by_code: dict[str, list[Problem]] = {}
     for problem in problems:

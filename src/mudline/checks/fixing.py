@@ -24,6 +24,7 @@ from mudline.checks.recovery.lines import start_of
 from mudline.checks.report import FileReport
 from mudline.checks.suppression import MARK
 from mudline.language.deck.forms import form_of
+from mudline.language.deck.keyword_text import meaning
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Diagnostic, Problem, Repair, Severity, Span
@@ -282,14 +283,14 @@ class StageReader(NamedTuple):
 
 
 def _same_elsewhere(before: FixState, after: FixState, edits: Sequence[TextEdit]) -> bool:
-    """Return True if both have the same blocks, with equal models where nothing was edited."""
+    """Return True if both have the same blocks, which mean the same where nothing was edited."""
     old, new = before.context.deck, after.context.deck
     if _outline(old) != _outline(new):
         return False
     blocks = [spot for spot in before.text.tree.spots if spot.where.section >= 0 and spot.block]
     return all(
         any(edit.span.start <= block.span.end and block.span.start <= edit.span.end for edit in edits)
-        or old.at(block.where) == new.at(block.where)
+        or meaning(old.at(block.where), comments=True) == meaning(new.at(block.where), comments=True)
         for block in blocks
     )
 

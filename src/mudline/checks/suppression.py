@@ -162,7 +162,7 @@ def _place(directive: Directive) -> str:
 
 
 def suppressions(context: LintContext) -> Suppressions | None:
-    """Return the suppressions of a deck's comments; None if it does not name mudline. Rules call `context.once`.
+    """Return the suppressions of a deck's comments; None if no comment is for mudline. Rules call `context.once`.
 
     A deck without a text, which a program made, hides nothing.
     """
@@ -177,12 +177,12 @@ def suppressions(context: LintContext) -> Suppressions | None:
             directive = _directive(text, leaf.span, suppressions_)
             if directive is not None and directive.order == "ignore":
                 waiting.append(directive)
-        elif leaf.kind is not LeafKind.BLANK:
+        elif waiting and leaf.kind is not LeafKind.BLANK:
             line = origin.source.position(leaf.span.start)[0]
             for directive in waiting:
                 directive.scope = ("line", line)
             waiting.clear()
-    return suppressions_
+    return suppressions_ if suppressions_.directives or suppressions_.misspelt else None
 
 
 def _directive(text: str, leaf: Span, found: Suppressions) -> Directive | None:

@@ -221,7 +221,7 @@ def reading_named_files(deck: model.Deck) -> None:
         from mudline.model.scene.deck_values import missing_files  # noqa: PLC0415 - most commands write no file
         from mudline.model.scene.restart import decks_before  # noqa: PLC0415 - as above
 
-        deque(missing_files(deck), 0)  # records each file that is searched
+        deque(missing_files(deck, deck.names()), 0)  # records each file that is searched
         decks_before(deck)
 
 

@@ -101,3 +101,9 @@ def test_blanks_that_are_no_missing_comma() -> None:
     assert messages(grouped) == ["5:5 '1 000' is not a number because its digits are grouped: write 1000 for x"]
     too_many = DECK.format("500.0", "-0.02 1.0 2.0 3.0", "")
     assert messages(too_many)[0].startswith("5:5 '-0.02 1.0 2.0 3.0' is not a number")
+
+
+def test_a_first_value_that_is_missing_has_its_place_behind_the_blanks() -> None:
+    assert messages("$MODEL\n*OCEAN\n   , 1025.0, 9.81\n") == [
+        "3:4 depth is missing: expected a number or an equation =[...]"
+    ]

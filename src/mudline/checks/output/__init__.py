@@ -15,16 +15,13 @@ from pkgutil import iter_modules
 from types import ModuleType
 
 from mudline.basics.limits import LONGEST_MESSAGE
-from mudline.basics.short_repr import counted, cut
+from mudline.basics.short_repr import counted, cut, printable
 from mudline.language.diagnostics import Diagnostic, Severity
 
 TEXT = "text"
 """Format for people, which is printed to the terminal as findings come."""
 
 TEXT_SUMMARY = "for people: place, message, the source line with a mark; standard output only"
-
-
-_REPLACEMENT = "\ufffd"
 
 
 def form_names() -> list[str]:
@@ -60,9 +57,7 @@ def visible(text: str, encoding: str = "utf-8") -> str:
     Nothing in a deck can then act on a terminal. Characters that the terminal's encoding lacks are escaped, so that the
     text has the same length here and there. A very long text is cut.
     """
-    shown = cut(text, LONGEST_MESSAGE)
-    if not shown.isprintable():
-        shown = "".join(char if char.isprintable() else " " if char == "\t" else _REPLACEMENT for char in shown)
+    shown = printable(cut(text, LONGEST_MESSAGE).replace("\t", " "))
     if encoding.startswith("utf"):
         return shown
     return shown.encode(encoding, "backslashreplace").decode(encoding)
@@ -70,7 +65,4 @@ def visible(text: str, encoding: str = "utf-8") -> str:
 
 def visible_lines(text: str) -> str:
     """Return the same for a text of several lines, whose line ends and tabs stay."""
-    kept = "\n\t"
-    if all(char.isprintable() or char in kept for char in text):
-        return text
-    return "".join(char if char.isprintable() or char in kept else _REPLACEMENT for char in text)
+    return printable(text, kept="\n\t")

@@ -146,7 +146,7 @@ def recovered(context: LintContext, codes: Collection[str], *, suppress: bool) -
     reported = hiding.reported(reported) if hiding else reported
     trials = MOST_TRIALS
     while len(found.steps) < MOST_ROUNDS and (text := found.context.text) is not None:
-        round_ = _Round(Blocks(found.context.deck, text), codes, trials)
+        round_ = _Round(Blocks(found.context, text), codes, trials)
         if not found.take(round_.taken(reported)):
             break
         trials = round_.trials

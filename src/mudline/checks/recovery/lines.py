@@ -12,13 +12,12 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
 from itertools import pairwise
 
-from mudline.checks.context import ROW_NUMBER
+from mudline.checks.context import ROW_NUMBER, LintContext
 from mudline.checks.rules.coverage import SBD008
 from mudline.language.codes.contact import SBD006
 from mudline.language.codes.fields import SYN002, SYN003, SYN016
 from mudline.language.codes.lines import SYN001, SYN013
 from mudline.language.codes.references import REF007
-from mudline.language.deck.model import Deck, NamedPlace
 from mudline.language.deck.parameters import name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span
@@ -92,8 +91,9 @@ class Blocks:
     keywords: names of all blocks.
     """
 
-    def __init__(self, deck: Deck, text: TextOrigin) -> None:
-        self.deck = deck
+    def __init__(self, context: LintContext, text: TextOrigin) -> None:
+        self.context = context
+        self.deck = context.deck
         self.text = text
         self.at = text.tree.at
         self.blocks = [(spot.section.name, spot.block) for spot in text.tree.spots if spot.block]
@@ -113,15 +113,11 @@ class Blocks:
         """Return the lines of some problems, each with its first problem."""
         return {self.line_of(one): one for one in reversed(problems)}
 
-    @cached_property
-    def _names(self) -> list[NamedPlace]:
-        return self.deck.names()
-
     def missing(self, what: Names) -> list[str]:
         """Return the names of a kind that are used and not defined."""
         if what not in self._missing:
             defined = {ALL} if what is Names.SET else set[str]()
-            found = [one for one in self._names if one.kind is what]
+            found = [one for one in self.context.names if one.kind is what]
             models = (one for one in found if self.deck.sections[one.where.section].name == "MODEL")
             defined |= {name_key(one.name) for one in models if one.role == "defines"}
             given = (one.name for one in found if one.role == "names")

@@ -13,7 +13,6 @@ from mudline.checks.rules.style import INDENTED_COMMENT
 from mudline.language.codes.fields import SYN015
 from mudline.language.codes.lines import SYN001
 from mudline.language.codes.references import REF001, REF002, REF005, REF006, REF007, REF008, REF019
-from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Repair, Severity, Span, Where
@@ -122,7 +121,7 @@ def scene_corrections(context: LintContext) -> Iterator[Correction]:
         return
     sets = {key: one.name for key, one in scene.set_table.named.items() if key != ALL}
     curves = {folded(one.name): one.name for one in scene.laws.curves if one.name and not one.embedment}
-    used = {where for where, _ in _used_names(context.deck, Names.CURVE)}
+    used = {where for where, _ in _used_names(context, Names.CURVE)}
     nameless = [one for one in undefined_curve(scene) if one.where in used]
     lacking = [one for one in scene.noticed if one.lacks and one.code in (REF001, REF008)]
     effort = Effort()
@@ -138,9 +137,9 @@ def scene_corrections(context: LintContext) -> Iterator[Correction]:
     yield from _rows_without_name(context, text, unlike)
 
 
-def _used_names(deck: Deck, *kinds: Names) -> Iterator[tuple[Where, str]]:
+def _used_names(context: LintContext, *kinds: Names) -> Iterator[tuple[Where, str]]:
     """Return the names of some kinds that the fields of a deck use, with their places."""
-    return ((place.where, place.name) for place in deck.names() if place.role == "names" and place.kind in kinds)
+    return ((place.where, place.name) for place in context.names if place.role == "names" and place.kind in kinds)
 
 
 def _names(
@@ -155,7 +154,7 @@ def _names(
     if not alike or text is None:
         return
     places: dict[str, list[Where]] = {}
-    for where, name in _used_names(context.deck, *kinds):
+    for where, name in _used_names(context, *kinds):
         places.setdefault(name_key(name), []).append(where)
     for key, found in alike.items():
         near = meant_names(key, known, effort)
@@ -227,7 +226,7 @@ def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]
 
 def _unused_set(context: LintContext) -> list[str]:
     """Return the name of the only set that is not used."""
-    used = {name_key(name) for _, name in _used_names(context.deck, Names.SET, Names.SUBSET)}
+    used = {name_key(name) for _, name in _used_names(context, Names.SET, Names.SUBSET)}
     named = context.scene.set_table.named
     sets = [set_.name for key, set_ in named.items() if key not in used and set_.where is not None]
     return sets if len(sets) == 1 else []

@@ -199,7 +199,7 @@ def _turned(scene: Scene, block: slice) -> list[int]:
     if not joined.any():
         return []
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        steps = scene.coordinates[ends[:, 1]] - scene.coordinates[ends[:, 0]]
+        steps = scene.coordinates.take(ends[:, 1], axis=0) - scene.coordinates.take(ends[:, 0], axis=0)
         length = np.linalg.norm(steps, axis=1)[:, np.newaxis]  # 0 also where its square is too small for a number
         steps /= np.where(length > 0.0, length, np.nan)
     turned = joined & (np.sum(steps[:-1] * steps[1:], axis=1) < TURNED)

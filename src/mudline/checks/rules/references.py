@@ -300,7 +300,7 @@ def misspelt_output(context: LintContext) -> Iterator[Problem]:
         return
     effort = Effort()
     own = len(context.deck.own_sections)
-    used = context.scene.context.names[Names.VARIABLE].used
+    used = context.scene.context.names(Names.VARIABLE).used
     requests = [(use.where, use.name) for use in used if use.where.section < own]
     for where, name in [*requests, *_of_kept_lines(context)]:
         for word in name.upper().replace("-", " ").split():

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
-from functools import wraps
+from collections.abc import Iterator
 
 from mudline.basics.limits import MOST_COLUMNS
 from mudline.checks.context import LintContext
 from mudline.checks.suppression import STY010, suppressions
-from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.reader import ReadBlock, all_keys
@@ -36,44 +34,28 @@ _SMALL = re.compile(r"[a-z]")
 _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
 
 
-Find = Callable[[TextOrigin, str], Iterator[Problem]]
-
-
-def rule_of_text(code: Code, *, off: bool = False) -> Callable[[Find], object]:
-    """Return a decorator that makes a rule of a function of a text and its unified source.
-
-    Nothing is reported in a deck without a text.
-    """
-
-    def register(find: Find) -> object:
-        @rule(code, off=off)
-        @wraps(find)
-        def check(context: LintContext) -> Iterable[Problem]:
-            return () if context.text is None else find(context.text, context.text.source.unified)
-
-        return check
-
-    return register
-
-
-def placed_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock | None, bool]]:
-    """Yield every line, or run of lines, except those of keywords and sections.
+def placed_leaves(context: LintContext) -> list[tuple[Leaf, ReadBlock | None, bool]]:
+    """Return every line, or run of lines, except those of keywords and sections. Rules call `context.once`.
 
     Each comes with its block, if that has a model, and True if it stands in a block without one.
     """
-    for spot in text.tree.spots:
-        section, block = where = spot.where[:2]
-        read = text.read.get(where)
-        kept = read is None and section >= 0 and block >= 0
-        yield from ((leaf, read, kept) for leaf in spot.part.leaves)
+    text = context.text
+    spots = [(spot, text.read.get(spot.where[:2])) for spot in text.tree.spots] if text else []
+    return [
+        (leaf, read, read is None and spot.block is not None and spot.where.section >= 0)
+        for spot, read in spots
+        for leaf in spot.part.leaves
+    ]
 
 
-def data_blocks(text: TextOrigin) -> Iterator[tuple[ReadBlock, list[Leaf]]]:
-    """Yield the blocks that have a model, with their lines that have values."""
-    source, sections = text.source.unified, text.tree.sections
-    for (section, number), read in text.read.items():
-        leaves = sections[section].blocks[number].leaves
-        yield read, [leaf for leaf in leaves if leaf.kind in _DATA or is_setting(source, leaf, read)]
+def data_blocks(context: LintContext) -> list[tuple[ReadBlock, list[Leaf]]]:
+    """Return the blocks that have a model, with their lines that have values. Rules call `context.once`."""
+    text, source = context.text, context.source.unified
+    blocks = [(read, text.tree.sections[i].blocks[j].leaves) for (i, j), read in text.read.items()] if text else []
+    return [
+        (read, [leaf for leaf in leaves if leaf.kind in _DATA or is_setting(source, leaf, read)])
+        for read, leaves in blocks
+    ]
 
 
 def is_setting(source: str, leaf: Leaf, read: ReadBlock) -> bool:
@@ -90,8 +72,8 @@ def first_of_lines(pattern: re.Pattern[str], source: str, span: Span) -> Iterato
         at = source.find("\n", match.end(), span.end) + 1 or span.end
 
 
-@rule_of_text(STY002)
-def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
+@rule(STY002)
+def lower_case_comment(context: LintContext) -> Iterator[Problem]:
     """A comment begins with a lower-case c.
 
     The mark of a comment is a capital C in column 1. A lower-case c is accepted here, but stricter programs read the
@@ -104,7 +86,8 @@ def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 3:1
     """
-    for leaf, _, kept in placed_leaves(text):
+    source = context.source.unified
+    for leaf, _, kept in context.once(placed_leaves):
         start = leaf.span.start
         if leaf.kind is LeafKind.COMMENT and source[start] == "c" and not kept:
             mark = Span(start, start + 1)
@@ -112,8 +95,8 @@ def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
 
 
-@rule_of_text(STY008)
-def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
+@rule(STY008)
+def key_like_comment(context: LintContext) -> Iterator[Problem]:
     """A setting such as CURVE= begins in column 1, where a C makes a comment.
 
     It is read as data here, since its keyword knows the setting. Programs that read any line with a C in column 1 as a
@@ -125,7 +108,8 @@ def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 3:1
     """
-    for leaf, read, _ in placed_leaves(text):
+    source = context.source.unified
+    for leaf, read, _ in context.once(placed_leaves):
         start = leaf.span.start
         if read is not None and source[start] in "Cc" and is_setting(source, leaf, read):
             key = first_key(source, leaf.span)
@@ -134,8 +118,8 @@ def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
 
 
-@rule_of_text(STY009)
-def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
+@rule(STY009)
+def indented_comment(context: LintContext) -> Iterator[Problem]:
     """A line that looks like a comment is indented, so it is read as data.
 
     Only a C in column 1 makes a comment; the manual mentions no other (inferred). With a space before it the line is
@@ -149,7 +133,8 @@ def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 3:3
     """
-    for leaf, read, kept in placed_leaves(text):
+    source = context.source.unified
+    for leaf, read, kept in context.once(placed_leaves):
         if kept or leaf.kind not in (LeafKind.TEXT, LeafKind.SETTING) or not INDENTED_COMMENT.match(source, *leaf.span):
             continue
         if read is None or not is_setting(source, leaf, read):
@@ -157,8 +142,8 @@ def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY009, message, trimmed(source, *leaf.span))
 
 
-@rule_of_text(STY005)
-def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
+@rule(STY005)
+def indented_keyword(context: LintContext) -> Iterator[Problem]:
     """A keyword or a section does not begin in column 1.
 
     Spaces before the `*` or the `$` are ignored here, but a program that expects the mark in column 1 reads the line as
@@ -170,7 +155,8 @@ def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 2:3
     """
-    for line in head_lines(text):
+    source = context.source.unified
+    for line in head_lines(context):
         if source[line.start] in " \t":
             head = trimmed(source, *line)
             mark = source[head.start]
@@ -180,8 +166,8 @@ def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY005, message, head, repair=repair)
 
 
-@rule_of_text(STY006)
-def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
+@rule(STY006)
+def keyword_case(context: LintContext) -> Iterator[Problem]:
     """The name of a keyword or a section is not in upper case.
 
     Case is ignored here. Manuals and other decks write these names in upper case, though, and a search of many decks
@@ -193,7 +179,8 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 2:1
     """
-    for head in (trimmed(source, *line) for line in head_lines(text) if _SMALL.search(source, *line)):
+    source = context.source.unified
+    for head in (trimmed(source, *line) for line in head_lines(context) if _SMALL.search(source, *line)):
         written = source[slice(*head)]
         # The text after the name may be a remark.
         if canonical_name(written) in (catalogue.SECTIONS if written[0] == "$" else catalogue.keywords()):
@@ -203,9 +190,10 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY006, message, head, repair=repair)
 
 
-def head_lines(text: TextOrigin) -> Iterator[Span]:
+def head_lines(context: LintContext) -> Iterator[Span]:
     """Return every line that begins a section or a keyword."""
-    return (spot.part.head.span for spot in text.tree.spots if spot.part.head)
+    spots = context.text.tree.spots if context.text else ()
+    return (spot.part.head.span for spot in spots if spot.part.head)
 
 
 @rule(STY010)
@@ -244,8 +232,8 @@ _NUMBER = re.compile(r"(?<![^ \t\n,=])[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)[dD][-
 _TO_E = str.maketrans("dD", "eE")
 
 
-@rule_of_text(STY001)
-def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
+@rule(STY001)
+def tab_character(context: LintContext) -> Iterator[Problem]:
     r"""A data line contains a TAB.
 
     Programs treat it differently: as one space, as the spaces that an editor shows, as a character of a name, or as an
@@ -258,9 +246,10 @@ def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 4:6
     """
-    for read, leaves in data_blocks(text):
+    source = context.source.unified
+    for read, leaves in context.once(data_blocks):
         for match in (match for leaf in leaves for match in first_of_lines(_TABS, source, leaf.span)):
-            repair = _spread(source, text.source.line_around(match.start()), read)
+            repair = _spread(source, context.source.line_around(match.start()), read)
             yield Problem(STY001, "a TAB in a data line: write spaces", Span(*match.span()), repair=repair)
 
 
@@ -286,8 +275,8 @@ def _holds_tab(source: str, group: FieldGroup) -> bool:
     return within and not (len(group.fields) == 1 and blank_separated(group.fields[0].text))
 
 
-@rule_of_text(STY004)
-def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
+@rule(STY004)
+def blank_separated_row(context: LintContext) -> Iterator[Problem]:
     """The numbers of a row are separated only by spaces.
 
     They are read as if there were commas between them. But the language separates fields by commas, and an empty field
@@ -299,7 +288,8 @@ def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 4:2
     """
-    for read, leaves in data_blocks(text):
+    source = context.source.unified
+    for read, leaves in context.once(data_blocks):
         beside_keys = any(leaf.kind is not LeafKind.RUN and _BEHIND_KEY.search(source, *leaf.span) for leaf in leaves)
         values = set(read.places.spans.values()) if beside_keys else set[Span]()
         rows = ((leaf, row) for leaf in leaves for row in _rows(source, leaf))
@@ -319,8 +309,8 @@ def _rows(source: str, leaf: Leaf) -> Iterator[Span]:
         yield trimmed(source, match.end(), leaf.span.end)
 
 
-@rule_of_text(STY007, off=True)
-def trailing_blank(text: TextOrigin, source: str) -> Iterator[Problem]:
+@rule(STY007, off=True)
+def trailing_blank(context: LintContext) -> Iterator[Problem]:
     """A line ends with spaces or TABs.
 
     They are invisible, and an editor that removes them changes lines in the history of the deck. Remove them. Lines of
@@ -332,23 +322,24 @@ def trailing_blank(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 2:7
     """  # noqa: D301 - a blank that an editor cannot take away
-    for span in sorted(_own_lines(text)):
+    source = context.source.unified
+    for span in sorted(_own_lines(context)):
         for match in first_of_lines(_TRAILING, source, span):
             blanks = Span(*match.span())
             repair = Repair("safe", "remove them", ((blanks, ""),))
             yield Problem(STY007, "spaces or TABs at the end of the line: remove them", blanks, repair=repair)
 
 
-def _own_lines(text: TextOrigin) -> Iterator[Span]:
+def _own_lines(context: LintContext) -> Iterator[Span]:
     """Yield all lines except the data of blocks without a model, and data outside of blocks."""
-    yield from head_lines(text)
-    for leaf, read, kept in placed_leaves(text):
+    yield from head_lines(context)
+    for leaf, read, kept in context.once(placed_leaves):
         if not kept and (read is not None or leaf.kind in (LeafKind.COMMENT, LeafKind.BLANK)):
             yield leaf.span
 
 
-@rule_of_text(STY003)
-def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
+@rule(STY003)
+def fortran_exponent(context: LintContext) -> Iterator[Problem]:
     """A number has the exponent D of Fortran's double precision.
 
     It is read as E here, but the language has only E, and other programs stop at the D or read the number without its
@@ -360,7 +351,8 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 5:12
     """
-    for read, leaves in data_blocks(text):
+    source = context.source.unified
+    for read, leaves in context.once(data_blocks):
         lettered = (leaf.span for leaf in leaves for letter in "dD" if source.find(letter, *leaf.span) >= 0)
         if not any(_SEEN.search(source, *span) for span in lettered):
             continue
@@ -368,7 +360,7 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
         paths = {span: path for path, span in read.places.spans.items()}
         matches = ((leaf, match) for leaf in leaves for match in first_of_lines(_SEEN, source, leaf.span))
         for leaf, match in matches:
-            line = text.source.line_around(match.start())
+            line = context.source.line_around(match.start())
             if leaf.span.start in tables or line.start in tables:
                 fields = row_fields(source, line, MOST_COLUMNS)
                 numbers = [field.span for field in fields if _NUMBER.fullmatch(field.text)]

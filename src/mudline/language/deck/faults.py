@@ -10,10 +10,11 @@ from typing import Any, NoReturn
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from mudline.basics.limits import MOST_REPORTED
+from mudline.basics.limits import LONGEST_MESSAGE, MOST_REPORTED
+from mudline.basics.short_repr import cut, printable
 from mudline.basics.spelling import meant_names
 from mudline.language.codes import DOC001, DOC002
-from mudline.language.deck.model import START, Deck, Range, printable
+from mudline.language.deck.model import START, Deck, Range
 from mudline.language.diagnostics import MORE, DeckError, Diagnostic, Where
 from mudline.language.keywords.faults import DocumentPath, fault_in_words, holds, path_in, path_text, shown
 from mudline.language.keywords.model import Block, Part, record_schema
@@ -98,7 +99,8 @@ class Faults:
 
     def _diagnosed(self) -> list[Diagnostic]:
         kind = DOC002.code, DOC002.slug, DOC002.severity
-        found = (Diagnostic(self.file, *kind, printable(words), *place, blocks=True) for place, words in self.found)
+        messages = ((place, printable(cut(words, LONGEST_MESSAGE))) for place, words in self.found)
+        found = (Diagnostic(self.file, *kind, message, *place, blocks=True) for place, message in messages)
         return sorted(found, key=lambda diagnostic: diagnostic.sort_key)
 
     def _alternatives(self, loc: DocumentPath, given: int, kind: str) -> set[int]:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Self
 
 from mudline.basics.arguments import expect, expect_fields, expect_word
 from mudline.basics.limits import LONGEST_MESSAGE
-from mudline.basics.short_repr import counted, cut, listed, outline, short_repr
+from mudline.basics.short_repr import counted, cut, listed, outline, printable, short_repr
 from mudline.basics.units import UNITS
 from mudline.language.diagnostics import (
     Blocks,
@@ -311,7 +311,7 @@ class Deck:
         code, place = own.code, deck.origin.place_in_file(own)
         fix = _fix(deck.origin, own.repair, code) if own.repair and deck.origin.takes_edits else None
         blocks, following = own.blocking is not Blocks.NEVER, tuple(self.diagnose(problem.following))
-        message = printable(own.message)
+        message = printable(cut(own.message, LONGEST_MESSAGE))  # names of a deck may be anything
         return Diagnostic(deck.file, code.code, code.slug, own.weight, message, *place, fix, blocks, following)
 
     def require(self) -> Self:
@@ -363,12 +363,6 @@ class BaseProblem(Problem):
     deck: Deck
 
     __repr__ = short_repr
-
-
-def printable(message: str) -> str:
-    """Return a message cut to its greatest length, without what cannot be printed: names of a deck may be anything."""
-    text = cut(message, LONGEST_MESSAGE)
-    return text if text.isprintable() else "".join(char if char.isprintable() else "\ufffd" for char in text)
 
 
 def _fix(origin: Origin, repair: Repair, code: Code) -> Fix:

@@ -270,7 +270,7 @@ class Builder:
             fields = [field for group in line.groups if not group.key for field in group.fields]
             behind = [group for group in line.groups if group.key]
         else:
-            fields, problems = split(self.text, span, slashes=self.slashes)
+            fields, problems = split(self.text, trimmed(self.text, *span), slashes=self.slashes)
         self._brackets(problems, built)
         if len(fields) == 1 and blank_separated(fields[0].text):
             fields = row_fields(self.text, fields[0].span, len(fields[0].text))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Protocol, cast
 
@@ -64,7 +64,7 @@ class ReadBlock:
 
     def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
         """Return the block as part of a text in which its piece begins at `start`, with its problems there."""
-        return replace(self, problems=problems, whole=(text, start))
+        return ReadBlock(self.model, self.own, problems, self.trailing, self.lost, (text, start), self.opaque)
 
 
 class BlockReader(Protocol):

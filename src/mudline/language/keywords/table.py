@@ -332,9 +332,8 @@ def _not_whole(table: Table) -> dict[tuple[int, int], str]:
             continue
         values = table.values[:, index]
         values += 0.0  # a whole number has no signed zero
-        with np.errstate(invalid="ignore"):
-            wrong = (values != np.floor(values)) & ~np.isnan(values) | (np.abs(values) > LARGEST_WHOLE)
-        for row in np.flatnonzero(wrong).tolist():
+        wrong = (values > np.floor(values)) | (np.abs(values) > LARGEST_WHOLE)  # False for NaN
+        for row in wrong.nonzero()[0].tolist():
             value = float(values[row])
             faults[row, index] = not_whole(repr(value), value, columns[index].label)
             values[row] = math.nan

@@ -9,7 +9,7 @@ from itertools import accumulate, islice
 from typing import NamedTuple
 
 from mudline.language.diagnostics import Span
-from mudline.language.syntax.fields import Field, first_key, split
+from mudline.language.syntax.fields import Field, first_key, split, trimmed
 from mudline.language.syntax.source import Source
 
 _LONE_LF = re.compile(r"(?<!\r)\n")
@@ -171,5 +171,5 @@ def _row(source: Source, number: int) -> _Row | None:
     line = source.text[slice(*span)]
     if not line.strip() or line[0] in "Cc*$" or line.lstrip()[0] in "*$" or first_key(source.unified, span):
         return None
-    fields, problems = split(source.unified, span)
+    fields, problems = split(source.unified, trimmed(source.unified, *span))
     return None if problems else _Row(span.start, fields)

@@ -93,27 +93,32 @@ def first_key(text: str, span: Span) -> str:
 
 
 def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field], list[Problem]]:
-    """Return the fields of a line, and the problems of its brackets; an unclosed bracket ends with the line."""
-    body = trimmed(text, *span)
-    if body.end - body.start >= MOST_FIELDS and sum(text.count(mark, *body) for mark in _MARKS) >= MOST_FIELDS:
+    """Return the fields of a line without outer blanks, and the problems of its brackets.
+
+    An unclosed bracket ends with the line.
+    """
+    start, end = span
+    if end - start >= MOST_FIELDS and sum(text.count(mark, start, end) for mark in _MARKS) >= MOST_FIELDS:
         message = f"more than {MOST_FIELDS} fields or brackets on one line: is this a deck?"
-        return [], [Problem(SYN003, message, Span(body.start, body.start + 1))]
+        return [], [Problem(SYN003, message, Span(start, start + 1))]
     fields: list[Field] = []
     problems: list[Problem] = []
-    start = at = body.start
-    while match := _MARK.search(text, at, body.end):
-        mark, place, at = match[0], match.start(), match.end()
+    closed = start
+    for match in _MARK.finditer(text, start, end):
+        mark, place = match[0], match.start()
+        if place < closed:
+            continue
         if mark == ",":
             fields.append(_field(text, start, place))
-            start = at
-        elif _opens(text, place, body.start, slashes=slashes):
-            at = _close(text, place, body.end)
-            if at < 0:
+            start = place + 1
+        elif _opens(text, place, span.start, slashes=slashes):
+            closed = _close(text, place, end)
+            if closed < 0:
                 what = "=[" if mark == "[" else mark
                 message = f"{what} is not closed: {_CLOSERS[mark]} is missing before the end of the line"
                 problems.append(Problem(SYN006, message, Span(place - (mark == "["), place + 1)))
-                at = body.end
-    fields.append(_field(text, start, body.end))
+                break
+    fields.append(_field(text, start, end))
     return fields, problems
 
 

@@ -114,20 +114,24 @@ class Context:
         return placed_blocks(self.deck)
 
     @cached_property
-    def names(self) -> dict[Names, NamesOfKind]:
-        """Names that the fields of the deck give, of every kind."""
-        names_by_kind = {kind: NamesOfKind(kind) for kind in Names}
+    def _names(self) -> dict[Names, NamesOfKind]:
+        """Names that the fields of the deck give, by kind in the order of `Names`."""
+        by_kind: dict[Names, NamesOfKind] = {}
         for place in self.deck.names():
-            names = names_by_kind[place.kind]
+            names = by_kind.get(place.kind) or by_kind.setdefault(place.kind, NamesOfKind(place.kind))
             if place.role == "names":
                 names.used.append(place)
             else:
                 names.defined.setdefault(name_key(place.name), []).append(place)
-        return names_by_kind
+        return {kind: by_kind[kind] for kind in Names if kind in by_kind}
+
+    def names(self, kind: Names) -> NamesOfKind:
+        """Return the names of a kind that the fields of the deck give."""
+        return self._names.get(kind) or NamesOfKind(kind)
 
     def names_of(self, kinds: Collection[Names]) -> list[NamesOfKind]:
-        """Return the names of some kinds."""
-        return [names for kind, names in self.names.items() if kind in kinds]
+        """Return the same for those of some kinds that the fields of the deck name."""
+        return [names for kind, names in self._names.items() if kind in kinds]
 
     @cached_property
     def unread_lines(self) -> list[tuple[Where, str, str]]:

@@ -13,7 +13,7 @@ from pathlib import Path, PurePath
 from mudline.basics.files import look
 from mudline.basics.outside import is_made_by_system, is_refused, project_of
 from mudline.basics.units import FOOT, POUND
-from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.model import Deck, NamedPlace, Opaque
 from mudline.language.deck.parameters import Parameters, bare, folded, unquoted
 from mudline.language.diagnostics import Severity, Span, Where
 from mudline.language.keywords import catalogue
@@ -89,14 +89,16 @@ def _has_siblings(path: Path) -> bool:
     return len(names) == _MOST_BESIDE or any(PurePath(name).suffix.lower() == path.suffix.lower() for name in names)
 
 
-def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
+def missing_files(deck: Deck, names: Iterable[NamedPlace]) -> Iterator[tuple[Where, Path, str]]:
     """Yield every FILE= of a deck itself that names no file: its place, the folder searched, the name as filled.
 
-    Nothing is yielded for a deck without a path, as it is not known where its files could be.
+    `names` are those of the deck, also of the decks that it continues. Nothing is yielded for a deck without a path, as
+    it is not known where its files could be.
     """
     if deck.folder is None:
         return
-    files = [(name.where, name.name) for name in deck.alone.names() if name.kind is Names.FILE and name.name]
+    own = len(deck.own_sections)
+    files = [(one.where, one.name) for one in names if one.kind is Names.FILE and one.name and one.where.section < own]
     parameters = Parameters(deck) if files else None
     for where, written in files:
         name = file_name(parameters.filled(written) if parameters else written)

@@ -112,7 +112,8 @@ def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
             continue
         for kind, known in ((Names.NODE, nodes), (Names.ELEMENT, elements)):
             named = [(ident, where._replace(path=path)) for path, ident in idents_given(block, kind)]
-            check_numbers(context, kind, known, named)
+            if named:
+                check_numbers(context, kind, known, named)
 
 
 @cache
@@ -359,7 +360,7 @@ class _Looking:
         definers = catalogue.definers(Names.VESSEL)
         if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
             return
-        vessels = self.context.names[Names.VESSEL].known
+        vessels = self.context.names(Names.VESSEL).known
         if vessels and name_key(name) not in vessels:
             message = f"vessel {shown(name)} is not defined{self.context.hint(name, vessels)}"
             self._warn(REF019, message, where, lacks=name)

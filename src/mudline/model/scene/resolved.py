@@ -166,7 +166,7 @@ class ResolvedDeck:
     @cached_property
     def referenced(self) -> set[str]:
         """Folded names of force-embedment curves that a STIFFNESS= gives."""
-        return {folded(use.name) for use in self.context.names[Names.CURVE].used}
+        return {folded(use.name) for use in self.context.names(Names.CURVE).used}
 
     @property
     def source(self) -> str:

@@ -118,7 +118,7 @@ def check_references(context: Context, sets: Sets, *, with_soil: bool) -> None:
     Postprocessing may have its own sets in addition to those of the model.
     """
     own = sets_of_postprocessing(context.deck)
-    for name, where in ((use.name, use.where) for use in context.names[Names.SET].used):
+    for name, where in ((use.name, use.where) for use in context.names(Names.SET).used):
         section = context.deck.sections[where.section]
         if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue

@@ -80,7 +80,7 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 6:7
     """
-    for where, folder, name in missing_files(scene.context.written):
+    for where, folder, name in missing_files(scene.context.written, scene.context.names(Names.FILE).used):
         message, severity = not_found(folder, name)
         # Without the file of its profile the seabed is not known.
         profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
@@ -169,11 +169,12 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 10:2
     """
-    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & ~(scene.length > 0.0))
+    suspects = (~(scene.length > 0.0)).nonzero()[0]
+    if not suspects.size:
+        return
+    known = suspects[(scene.element_nodes[suspects] >= 0).all(axis=1)]
     first, second = scene.element_nodes[known].T
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
-    if not same.size:
-        return
     joints = [keyword for keyword in scene.deck.keywords() if may_have_no_length(keyword)]
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
     reported: set[Where] = set()
@@ -308,15 +309,16 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     yield from undefined(scene.context, CURVES, REF002)
     names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.name and not curve.embedment}
+    uses = [use for use in scene.context.names(Names.CURVE).used if folded(use.name) not in names]
+    if not uses:
+        return
     laws = scene.laws.set_laws
     lost = [index for index, law in enumerate(laws) if law.kind is LawKind.CURVE and law.curve == NOTHING]
     followed = {laws[index].where for index in lost if (scene.laws.of_element == index).any()}
     unused = [name for key, name in names.items() if key not in scene.referenced]
     elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
     unused_hint = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
-    for name, where in ((use.name, use.where) for use in scene.context.names[Names.CURVE].used):
-        if folded(name) in names:
-            continue
+    for name, where in ((use.name, use.where) for use in uses):
         hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else unused_hint)
         number = number_meant(name)
         number = f"if it is a number, write {number}" if number else ""

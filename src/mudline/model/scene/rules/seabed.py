@@ -11,6 +11,7 @@ import numpy as np
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
 from mudline.language.syntax.source import BINARY
 from mudline.model.scene.context import records_of
@@ -324,7 +325,8 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 4:2
     """
     seabed = scene.seabed
-    missing = {where for where, _, _ in missing_files(scene.context.written)} if seabed.unreadable else set()
+    files = scene.context.names(Names.FILE).used if seabed.unreadable else ()
+    missing = {where for where, _, _ in missing_files(scene.context.written, files)}
     for where, message in seabed.unreadable:
         if where in missing:
             continue
