@@ -46,6 +46,9 @@ def test_parts_give_what_the_whole_gives(cycle: ContactResult) -> None:
     assert [data.largest[name].step for name in whole.largest] == [one.step for one in whole.largest.values()]
     assert np.array_equal(data.reaction.largest, whole.reaction.largest, equal_nan=True)
     assert np.array_equal(data.loop(1).force, whole.loop(1).force)
+    for extremes, values in ((data.force, cycle.force), (data.depth, cycle.depth)):
+        assert np.array_equal(extremes.least.values, np.fmin.reduce(values), equal_nan=True)
+        assert np.array_equal(extremes.largest.values, np.fmax.reduce(values), equal_nan=True)
 
 
 def test_a_long_series_keeps_its_extremes_in_bins(cycle: ContactResult) -> None:
