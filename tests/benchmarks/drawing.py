@@ -1,4 +1,4 @@
-"""Pictures of studies: one style for all of them, and one for each time integration scheme."""
+"""Pictures of studies in the style of all plots, with one for each time integration scheme."""
 
 from __future__ import annotations
 
@@ -10,37 +10,35 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from mudline.model.results.plots.style import COLORS, SEABED, Style, drawing, frame, save
 from tests.benchmarks.tables import FOLDER
 
-_COLORS = ("#332288", "#cc6677", "#117733", "#999933", "#882255", "#88ccee", "#44aa99", "#aa4499", "#ddcc77", "#777777")
-"""Other colours than those of the schemes; colour-blind readers can distinguish them."""
-_MARKERS = "os^DvPX<>*"
 _SCHEMES = {
-    "central difference": ("#0072b2", "o", "-"),
-    "velocity Verlet": ("#56b4e9", "s", "--"),
-    "RK4": ("#009e73", "^", "-"),
-    "Newmark": ("#d55e00", "D", "-"),
-    "HHT (-0.3)": ("#cc79a7", "v", "-."),
-    "generalised-alpha (1)": ("#e69f00", "P", "--"),
-    "generalised-alpha (0.5)": ("#8c6d31", "X", "-."),
-    "generalised-alpha (0)": ("#b2182b", "<", "-"),
-    "backward Euler": ("#000000", ">", "-"),
+    "central difference": Style(COLORS[0], "-", "o"),
+    "velocity Verlet": Style(COLORS[5], "--", "s"),
+    "RK4": Style(COLORS[2], "-", "^"),
+    "Newmark": Style(COLORS[1], "-", "D"),
+    "HHT (-0.3)": Style(COLORS[3], "-.", "v"),
+    "generalised-alpha (1)": Style(COLORS[4], "--", "P"),
+    "generalised-alpha (0.5)": Style(SEABED, "-.", "X"),
+    "generalised-alpha (0)": Style("0.5", "-", "<"),
+    "backward Euler": Style(COLORS[6], "-", ">"),
 }
 """Two that often coincide differ in the dash."""
 
 LineStyle = dict[str, Any]
 
 
-def style(name: str, index: int = 0) -> LineStyle:
-    """The style of a scheme by its title, else that of this number."""
-    color, marker, dash = _SCHEMES.get(name) or (_COLORS[index % len(_COLORS)], _MARKERS[index % len(_MARKERS)], "-")
-    return {"color": color, "marker": marker, "linestyle": dash, "markersize": 5, "linewidth": 1.4}
+def style(scheme: str) -> LineStyle:
+    """The style of a scheme by its title."""
+    look = _SCHEMES[scheme]
+    return {**look.line, "marker": look.marker, "markersize": 5, "linewidth": 1.4}
 
 
 def lines(axes: Axes, points: Mapping[str, Sequence[tuple[float, float]]]) -> None:
-    """A line through points for each name of the legend, on logarithmic axes."""
-    for index, (name, part) in enumerate(points.items()):
-        axes.loglog([x for x, _ in part], [y for _, y in part], label=name, **style(name, index))
+    """A line through points for each scheme, on logarithmic axes."""
+    for name, part in points.items():
+        axes.loglog([x for x, _ in part], [y for _, y in part], label=name, **style(name))
 
 
 def label(axes: Axes, title: str, x: str, y: str) -> None:
@@ -48,7 +46,7 @@ def label(axes: Axes, title: str, x: str, y: str) -> None:
     axes.set_title(title, fontsize="medium")
     axes.set_xlabel(x)
     axes.set_ylabel(y)
-    axes.grid(visible=True, which="major", alpha=0.35)
+    frame(axes)
 
 
 def panels(figure: Figure, count: int, across: int, *, sharey: bool = False) -> list[Axes]:
@@ -65,6 +63,7 @@ def legend_below(figure: Figure, axes: Axes, columns: int = 4) -> None:
     figure.legend(handles, names, loc="outside lower center", ncols=columns, fontsize="small")
 
 
+@drawing()
 def draw(
     name: str, function: Callable[[Figure], None], size: tuple[float, float] = (9.0, 6.0), folder: Path = FOLDER
 ) -> None:
@@ -72,5 +71,5 @@ def draw(
     figure = Figure(figsize=size, layout="constrained", dpi=100)
     function(figure)
     stream = io.BytesIO()
-    figure.savefig(stream, format="png", metadata={"Software": None})
+    save(figure, "png", stream)
     (folder / f"{name}.png").write_bytes(stream.getvalue())

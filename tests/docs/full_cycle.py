@@ -5,14 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 import mudline
 from mudline.model.results.plot_data import Cycle
 from mudline.model.results.plots.curves import draw_path
+from mudline.model.results.plots.style import drawing, finish, legend, new_figure, save
 from mudline.model.scene.model import resolve
 from mudline.model.scene.positions import read_positions
 
@@ -34,7 +33,7 @@ NOTES = (
     Note("4  the pipe stops:\nhold, no force", (40.0, 0.0), (14.0, 0.65)),
     Note("5  breakout, at the\nuplift Delta_B above\nthe trench bottom", (-35.3, 0.0), (-51.0, 0.65)),
     Note("6  down again: no force\nabove the trench bottom", (65.0, 0.0), (42.0, 1.4)),
-    Note("7  along ku to where\nit turned, then along\nthe curve", (106.0, 3.83), (107.0, 2.7)),
+    Note("7  along ku to where\nit turned, then along\nthe curve", (106.0, 3.83), (104.0, 2.7)),
 )
 _FINER = 5
 """Places evaluated for each step of the file."""
@@ -56,24 +55,28 @@ def cycle(samples: Path) -> Cycle:
     return Cycle(1e3 * result.depth[:, _ELEMENT], 1e-3 * result.force[:, _ELEMENT], result.state[:, _ELEMENT])
 
 
+@drawing()
 def draw(path: Cycle, form: str, stream: BinaryIO) -> None:
     """Write the picture as "svg" or "png"."""
-    with mpl.rc_context({"svg.hashsalt": "mudline", "svg.fonttype": "path", "font.size": 10.0}):
-        figure = Figure(figsize=(9.0, 5.6), layout="constrained", dpi=110)
-        _panel(figure.add_subplot(), path)
-        figure.savefig(stream, format=form, metadata={"Date": None} if form == "svg" else None)
+    figure = new_figure(5.2)
+    figure.suptitle(
+        "One cycle of samples/full-cycle.keyxm: a pipe of 0.4064 m on soft clay, pulled out at 10 mm/s",
+        fontsize="medium",
+    )
+    _panel(figure.add_subplot(), path)
+    save(figure, form, stream)
 
 
 def _panel(axes: Axes, path: Cycle) -> None:
-    axes.text(-1.0, 4.95, "seabed", rotation=90.0, ha="right", va="top", fontsize=8.0)
+    axes.text(-1.0, 4.95, "seabed", rotation=90.0, ha="right", va="top", fontsize="small")
     draw_path(axes, path)
-    line = {"arrowstyle": "-", "color": "#555555", "linewidth": 0.7}
+    line = {"arrowstyle": "-", "color": "0.4", "linewidth": 0.7}
     for note in NOTES:
-        axes.annotate(note.text, note.point, note.at, arrowprops=line, fontsize=9.0)
+        axes.annotate(note.text, note.point, note.at, arrowprops=line)
     axes.set_xlabel("penetration of the pipe [mm]")
     axes.set_ylabel("seabed reaction per unit length [kN/m]\nabove 0 it pushes the pipe out, below 0 it holds it back")
-    axes.set_title("One cycle of samples/full-cycle.keyxm: a pipe of 0.4064 m on soft clay, pulled out at 10 mm/s")
     axes.set_xlim(-55.0, 140.0)
     axes.set_ylim(-1.6, 5.0)
-    axes.grid(color="#dddddd", linewidth=0.5)
-    axes.legend(title="state", loc="lower left", ncols=3)
+    finish(axes)
+    axes.set_xticks(range(-50, 126, 25))
+    legend(axes, title="state", columns=5)

@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.figure import Figure
 
 import mudline
 from mudline.model.contact.arrays import FloatArray
+from mudline.model.results.plots.style import COLORS, drawing, finish, new_figure, save, zero_line
 from mudline.model.scene.model import resolve
 from mudline.model.scene.positions import read_positions
 
@@ -39,16 +38,18 @@ def loop(samples: Path) -> Loop:
     return Loop(1e3 * result.depth[:, column], 1e-3 * result.force[:, column])
 
 
+@drawing()
 def draw(found: Loop, form: str, stream: BinaryIO) -> None:
     """Write the picture as "svg" or "png"."""
-    with mpl.rc_context({"svg.hashsalt": "mudline", "svg.fonttype": "path", "font.size": 10.0}):
-        figure = Figure(figsize=(8.0, 4.8), layout="constrained", dpi=110)
-        axes = figure.add_subplot()
-        axes.axhline(0.0, color="0.4", linewidth=0.8)
-        axes.plot(found.penetration, found.force, color="#0072B2", linewidth=1.2)
-        axes.set_xlim(-15.0, None)
-        axes.set_xlabel("penetration of the pipe [mm]")
-        axes.set_ylabel("seabed reaction per unit length [kN/m]")
-        axes.set_title(f"Element {ELEMENT} of samples/scr-soil.keyxm over two and a half periods of heave")
-        axes.grid(color="#dddddd", linewidth=0.5)
-        figure.savefig(stream, format=form, metadata={"Date": None} if form == "svg" else None)
+    figure = new_figure(4.8)
+    axes = figure.add_subplot()
+    zero_line(axes)
+    axes.plot(found.penetration, found.force, color=COLORS[0], linewidth=1.3)
+    axes.set_xlim(-15.0, None)
+    axes.set_xlabel("penetration of the pipe [mm]")
+    axes.set_ylabel("seabed reaction per unit length [kN/m]")
+    axes.set_title(
+        f"Element {ELEMENT} of samples/scr-soil.keyxm over two and a half periods of heave", fontsize="medium"
+    )
+    finish(axes)
+    save(figure, form, stream)

@@ -89,11 +89,9 @@ def _csv_rows(
         yield ("curve", *_AT, *_KIND)
         yield from ((row["name"], *value.values(), *_kind(row)) for row in rows for value in row["at"])
     elif weight is not None:
-        yield ("curve", *_AT, "stable", *_OF_DIAMETER)
-        for row in rows:
-            for static in row.get("static", ()):
-                *values, sizes = static.values()
-                yield from ((row["name"], *values, *each.values()) for each in sizes or [dict.fromkeys(_OF_DIAMETER)])
+        names = (*_AT, "stable", *_OF_DIAMETER)
+        yield ("curve", *names)
+        yield from ((row["name"], *map(static.get, names)) for row in rows for static in _static(row))
     else:
         yield ("curve", "ratio", "force", "slope", *_KIND)
         for row in rows:
@@ -105,6 +103,12 @@ def _csv_rows(
 def _kind(row: dict[str, Any]) -> list[str]:
     """Return the kind of a curve, its abscissa (below `ratio`) and its ordinate (below `force`), with units."""
     return [row["kind"], *(labelled(*axis) for axis in zip(row["axes"], row["units"], strict=True))]
+
+
+def _static(row: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the static embedments of a curve, each with every diameter on it, or with none."""
+    none = [dict.fromkeys(_OF_DIAMETER)]
+    return [static | each for static in row.get("static", ()) for each in static["stiffness"] or none]
 
 
 # ---------------------------------------------------------------------------------------------------------- output
@@ -163,9 +167,7 @@ def _print_values(printer: Printer, row: dict[str, Any], units: Sequence[str]) -
 
 
 def _print_static(printer: Printer, row: dict[str, Any], system: UnitSystem) -> None:
-    embedments = [
-        {**static, **each} for static in row["static"] for each in static["stiffness"] or [dict.fromkeys(_OF_DIAMETER)]
-    ]
+    embedments = _static(row)
     columns = (
         number("ratio", "ratio"),
         number("diameter", "diameter", system.unit("L")),

@@ -23,7 +23,7 @@ from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.against import ResultComparison
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.series import SeriesSummary
+from mudline.model.results.series import OF_LINES, SeriesSummary
 from mudline.model.results.summary_tables import law_table, span, state_table, touchdown_table, weight_note
 from mudline.model.results.totals import (
     NOT_KNOWN,
@@ -305,10 +305,9 @@ def _touchdown(row: dict[str, Any]) -> str:
 def _print_extents(printer: Printer, series: SeriesSummary, most: int) -> None:
     """Print the ranges of touchdown, length in contact, forces and reaction of each line."""
     evaluation, times, lines = series.evaluation, series.evaluation.time, series.evaluation.lines.tolist()
-    figures = ("first_touchdown", "last_touchdown", "contact_length", "largest_force", "largest_uplift", "reaction")
     rows = []
     for at, line in enumerate(lines):
-        extents = {name: extent for name in figures if (extent := series.of("summary", name).extent(at, times))}
+        extents = {name: extent for name in OF_LINES if (extent := series.of("summary", name).extent(at, times))}
         first, last = extents.get("first_touchdown"), extents.get("last_touchdown")
         if last == first:
             extents.pop("last_touchdown", None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from mudline.model.results.plots.style import COLORS, SEABED
 from tests.benchmarks.drawing import draw, label, legend_below, panels, style
 from tests.benchmarks.studies.schemes import SCHEMES
 from tests.benchmarks.tables import column, load
@@ -22,12 +23,12 @@ def draw_path(figure: Figure) -> None:
     rows = load("benchmark-path")
     time = column(rows, "time [s]")
     above, middle, below = panels(figure, 3, 1)
-    above.plot(time, column(rows, "touchdown [m]"), color="#0072b2")
+    above.plot(time, column(rows, "touchdown [m]"), color=COLORS[0])
     label(above, "Touchdown point", "", "arc length [m]")
-    for name, colour in (("hoist up", "#d55e00"), ("hoist along", "#009e73")):
+    for name, colour in (("hoist up", COLORS[1]), ("hoist along", COLORS[2])):
         middle.plot(time, column(rows, f"{name} [N]"), color=colour, label=name)
     label(middle, "Force of the hoist", "", "[N]")
-    for name, colour in (("hoist work", "#d55e00"), ("seabed work", "#0072b2"), ("damping work", "#7a7a7a")):
+    for name, colour in (("hoist work", COLORS[1]), ("seabed work", COLORS[0]), ("damping work", "0.5")):
         below.plot(time, column(rows, f"{name} [J]"), color=colour, label=name)
     label(below, "Work done on the line", "time [s]", "[J]")
     for axes in (middle, below):
@@ -63,9 +64,9 @@ def draw_bounces(figure: Figure) -> None:
     rows = load("benchmark-bouncing-path")
     time = column(rows, "time [s]")
     (axes,) = panels(figure, 1, 1)
-    axes.plot(time, column(rows, "last node [m]"), color="#000000", linewidth=2.5, label="mudline, reference")
-    axes.plot(time, column(rows, "Exudyn, last node [m]"), "--", color="#56b4e9", label="Exudyn")
-    axes.axhline(0.0, color="#8c6d31", linewidth=0.8)
+    axes.plot(time, column(rows, "last node [m]"), color=COLORS[6], linewidth=2.5, label="mudline, reference")
+    axes.plot(time, column(rows, "Exudyn, last node [m]"), "--", color=COLORS[5], label="Exudyn")
+    axes.axhline(0.0, color=SEABED, linewidth=0.8)
     axes.legend(fontsize="small")
     label(axes, "Height of the last node above the seabed", "time [s]", "[m]")
 

@@ -22,6 +22,7 @@ from mudline.model.contact.input import ContactInput, LawAssignment
 from mudline.model.contact.model import ContactModel
 from mudline.model.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
 from mudline.model.curves import ForceCurve
+from mudline.model.results.plots.style import COLORS
 from mudline.model.scene.model import resolve
 from tests.benchmarks.contact import all_laws, by_hand, of_line, series, streaming
 from tests.benchmarks.drawing import draw, label
@@ -238,7 +239,7 @@ def _draw_stages(figure: Figure) -> None:
     rows = [row for row in load(STAGES) if row["nodes"] == str(LADDER[-1])]
     ordered = sorted(rows, key=lambda row: float(row["times the curve's"]))
     names = [row["scene"] for row in ordered]
-    colors = ["#0072b2" if row["steps"] == "together" else "#d55e00" for row in ordered]
+    colors = [COLORS[0] if row["steps"] == "together" else COLORS[1] for row in ordered]
     memory = float(next(row for row in rows if row["scene"] == CURVE)["memory [bytes/node]"])
     time, space = figure.subplots(1, 2, sharey=True)
     shares = (column(ordered, "times the curve's"), [one / memory for one in column(ordered, "memory [bytes/node]")])
@@ -248,7 +249,7 @@ def _draw_stages(figure: Figure) -> None:
         axes.axvline(1.0, color="0.4", linestyle=":")
         axes.set_xlim(0.0, 1.2 * max(values))
         label(axes, title, "times that of the scene with a curve [-]", "")
-    for words, color in (("all steps together", "#0072b2"), ("one step after the other", "#d55e00")):
+    for words, color in (("all steps together", COLORS[0]), ("one step after the other", COLORS[1])):
         space.barh(names[:1], [0.0], color=color, label=words)
     space.legend(loc="upper right")
     time.invert_yaxis()

@@ -44,8 +44,11 @@ def test_parts_give_what_the_whole_gives(cycle: ContactResult) -> None:
         data.take(part)
     assert set(whole.largest) == {"reaction", "pull"}
     assert [data.largest[name].step for name in whole.largest] == [one.step for one in whole.largest.values()]
-    assert np.array_equal(data.reaction.most, whole.reaction.most, equal_nan=True)
+    assert np.array_equal(data.reaction.largest, whole.reaction.largest, equal_nan=True)
     assert np.array_equal(data.loop(1).force, whole.loop(1).force)
+    for extremes, values in ((data.force, cycle.force), (data.depth, cycle.depth)):
+        assert np.array_equal(extremes.least.values, np.fmin.reduce(values), equal_nan=True)
+        assert np.array_equal(extremes.largest.values, np.fmax.reduce(values), equal_nan=True)
 
 
 def test_a_long_series_keeps_its_extremes_in_bins(cycle: ContactResult) -> None:
@@ -56,7 +59,7 @@ def test_a_long_series_keeps_its_extremes_in_bins(cycle: ContactResult) -> None:
         data.take(ResultPart(start, cycle))
     reaction = cycle.normal_force.sum(axis=1)
     assert len(data.bin_times) == 2000
-    assert np.nanmax(data.reaction.most) == reaction.max()
+    assert np.nanmax(data.reaction.largest) == reaction.max()
     assert np.nanmin(data.reaction.least) == reaction.min()
     assert len(data.points().ratio) <= 4100
 

@@ -9,7 +9,8 @@ from typing import Annotated, BinaryIO, Literal, get_type_hints
 
 from mudline.basics.quantities import Quantity, finite
 from mudline.basics.units import UNITS
-from mudline.model.results.series import PeakValue, SeriesSummary
+from mudline.model.results.extremes import PeakValue
+from mudline.model.results.series import SeriesSummary
 from mudline.model.results.warnings import ContactWarning
 
 

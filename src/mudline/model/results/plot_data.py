@@ -17,6 +17,7 @@ from mudline.model.contact.lines import TouchdownPoint
 from mudline.model.contact.result import ResultPart
 from mudline.model.contact.touchdown import Touchdown
 from mudline.model.results.evaluation import Evaluation
+from mudline.model.results.extremes import Best, Extremes, StepValues
 from mudline.model.results.totals import carried, step_figures
 from mudline.model.scene.numbering import Floats, Indices, Mask
 
@@ -67,22 +68,16 @@ class Chosen(NamedTuple):
         return heights
 
 
-class Extents:
-    """The least and the largest of several values over the steps, NaN without a value."""
+class Bins:
+    """The least and the largest of a value over the steps of each bin, NaN without a value."""
 
     def __init__(self, count: int) -> None:
-        self.least = np.full(count, np.nan)
-        self.most = np.full(count, np.nan)
+        self.least, self.largest = np.full(count, np.nan), np.full(count, np.nan)
 
-    def take(self, values: Floats) -> None:
-        """Add some steps of each value (steps, count)."""
-        self.least = np.fmin(self.least, np.fmin.reduce(values, axis=0))
-        self.most = np.fmax(self.most, np.fmax.reduce(values, axis=0))
-
-    def take_bins(self, bins: Indices, values: Floats) -> None:
-        """Add some steps (steps,) of a single value, which belong to these bins."""
+    def take(self, bins: Indices, values: Floats) -> None:
+        """Add some steps (steps,), which belong to these bins."""
         np.fmin.at(self.least, bins, values)
-        np.fmax.at(self.most, bins, values)
+        np.fmax.at(self.largest, bins, values)
 
 
 class Cycle(NamedTuple):
@@ -143,17 +138,17 @@ class PlotData:
         self.looped: Indices = np.array([places[number] for number in numbers], np.intp)
         self.largest: dict[str, Chosen] = {}
         self.touched: Mask = np.zeros(len(evaluated), np.bool_)
-        self.force, self.depth = Extents(len(evaluated)), Extents(len(evaluated))
+        self.force, self.depth = Extremes(len(evaluated)), Extremes(len(evaluated))
         self.on_curve: Indices = self.elements[given.curve_index[self.elements] >= 0]
         self._bins = min(_BINS, steps)
-        self.reaction = Extents(self._bins)
+        self.reaction = Bins(self._bins)
         lines = np.unique(given.lines.of_element[self.elements]).tolist()
         self.lines: list[int] = lines[:_FOLLOWED_LINES]
         self.more_lines = len(lines) - len(self.lines)
         followed = self.lines if steps > 1 else []
-        self.touchdown = {line: (Extents(self._bins), Extents(self._bins)) for line in followed}
+        self.touchdown = {line: (Bins(self._bins), Bins(self._bins)) for line in followed}
         self._finder = Touchdown(given)
-        self._sizes: dict[str, float] = {}
+        self._largest: dict[str, Best] = {}
         self._points: list[Points] = []
         self._seen, self._every = 0, max(1, steps * len(self.on_curve) // _POINTS)
         self._loops: list[Cycle] = []
@@ -181,20 +176,20 @@ class PlotData:
         result = part.result
         of_part = {name: np.asarray(figure.values[:, 0], np.float64) for name, figure in step_figures(part).items()}
         bins = np.arange(part.start, part.start + part.count) * self._bins // self.steps
-        self.reaction.take_bins(bins, of_part["reaction"])
+        self.reaction.take(bins, of_part["reaction"])
         self._choose("reaction", part, of_part["reaction"])
         self._choose("pull", part, of_part["pull"])
         if result.friction is not None:
             self._choose("friction", part, np.nan_to_num(np.abs(result.friction)).max(axis=(1, 2), initial=0.0))
         self.touched |= carried(result).any(axis=0) & result.evaluated
-        self.force.take(result.force)
-        self.depth.take(result.depth)
+        self.force.take(part.start, StepValues(result.force))
+        self.depth.take(part.start, StepValues(result.depth))
         for line in self._finder.series(part) if self.touchdown else ():
             if line.number in self.touchdown:
-                for extents, values in zip(
+                for kept, values in zip(
                     self.touchdown[line.number], (line.first_touchdown, line.last_touchdown), strict=True
                 ):
-                    extents.take_bins(bins, values)
+                    kept.take(bins, values)
         if self.looped.size:
             every = -(-self.steps // _LOOP_STEPS)
             at = np.ix_(np.arange(-part.start % every, part.count, every), self.looped)
@@ -210,13 +205,13 @@ class PlotData:
     def _choose(self, name: str, part: ResultPart, values: Floats) -> None:
         """Keep the step with the largest of these values (steps,), if no earlier step has a larger one.
 
-        Only the total reaction may be 0 or less, or unknown at all steps.
+        An unknown one counts as 0. Only the total reaction may be 0 or less.
         """
-        step = int(np.argmax(np.nan_to_num(values, posinf=np.inf)))
-        first = name == "reaction" and name not in self.largest
-        if first or values[step] > self._sizes.get(name, 0.0):
-            self._sizes[name] = float(values[step])
-            self.largest[name] = Chosen(part.start + step, part.result.step(step))
+        largest = self._largest.setdefault(name, Best(1, -1.0))
+        largest.take(part.start, StepValues(np.nan_to_num(values, posinf=np.inf)[:, np.newaxis]))
+        step = int(largest.steps[0])
+        if step >= part.start and (name == "reaction" or largest.values[0] > 0.0):
+            self.largest[name] = Chosen(step, part.result.step(step - part.start))
 
     def _points_of(self, part: ResultPart, step: Indices, element: Indices) -> Points:
         point = part.result.ratio[step, element], part.result.force[step, element]
@@ -232,7 +227,7 @@ class PlotData:
     @property
     def known(self) -> bool:
         """True if the total reaction is known at some step."""
-        return not np.isnan(self.reaction.most).all()
+        return not np.isnan(self.reaction.largest).all()
 
     @property
     def bin_times(self) -> Floats:

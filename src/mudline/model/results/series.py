@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,13 +19,11 @@ from mudline.model.contact.input import LawKind
 from mudline.model.contact.result import ResultPart
 from mudline.model.contact.touchdown import LineSeries, side_by_side
 from mudline.model.results.evaluation import Evaluation
+from mudline.model.results.extremes import NO_STEP, Extremes, PeakValue, StepValues
 from mudline.model.results.forms import TABLES, FileContent, ResultTables, Writer, plan_rows
-from mudline.model.results.totals import HELD, StepValues, carried, step_figures
+from mudline.model.results.totals import HELD, carried, step_figures
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats, Mask
-
-_NO_STEP = -1
-
 
 Figures = Mapping[str, StepValues]
 
@@ -65,14 +62,14 @@ def _of_nodes(evaluation: Evaluation, part: ResultPart) -> Figures:
     }
 
 
-_OF_LINES = ("first_touchdown", "last_touchdown", "contact_length", "largest_force", "largest_uplift", "reaction")
+OF_LINES = ("first_touchdown", "last_touchdown", "contact_length", "largest_force", "largest_uplift", "reaction")
 """Quantities of `LINES` that are followed."""
 
 
 def _of_lines(evaluation: Evaluation, part: ResultPart) -> Figures:
     lines = evaluation.touchdown.series(part)
     of_lines = partial(_of_each, lines, part)
-    values = {name: StepValues(of_lines(name)) for name in _OF_LINES}
+    values = {name: StepValues(of_lines(name)) for name in OF_LINES}
     return values | {
         "contact_steps": StepValues(values["contact_length"].values > 0.0),
         "touchdown_steps": StepValues(of_lines("touchdown_points") > 0),
@@ -132,73 +129,6 @@ FIGURES: Mapping[str, Callable[[Evaluation, ResultPart], Figures]] = {
     "suction": _of_suction,
 }
 """Functions for the figures of some steps, by table; a figure has one column for each row of the table."""
-
-
-class PeakValue(NamedTuple):
-    """A least or largest value over all steps, the step of its first occurrence, and the value that goes with it."""
-
-    value: float
-    step: int
-    at: float = np.nan
-
-
-class Best:
-    """The least (`sign` 1) or the largest (-1) values of columns (k,) over steps.
-
-    Attributes:
-        values: the values; infinite without a value.
-        steps: step of the first occurrence of each value, -1 without a value.
-        at: value that goes with each of them, NaN for none.
-    """
-
-    def __init__(self, columns: int, sign: float) -> None:
-        self._sign = sign
-        self.values, self.at = np.full(columns, sign * np.inf), np.full(columns, np.nan)
-        self.steps = np.full(columns, _NO_STEP, np.int64)
-
-    def take(self, start: int, figure: StepValues) -> None:
-        """Add the values of the steps from `start` on."""
-        best = (np.fmin if self._sign > 0.0 else np.fmax).reduce(figure.values, axis=0)
-        column = np.flatnonzero(best * self._sign < self.values * self._sign)
-        if column.size:
-            row = (figure.values[:, column] == best[column]).argmax(axis=0)
-            self.values[column], self.steps[column] = figure.values[row, column], start + row
-            if figure.at is not None:
-                self.at[column] = figure.at[row, column]
-
-    def peak(self) -> PeakValue | None:
-        """Return the best of all columns, the first of several equal ones; None without any."""
-        known = np.flatnonzero(self.steps >= 0)
-        if not known.size:
-            return None
-        at = known[np.lexsort((self.steps[known], self._sign * self.values[known]))[0]]
-        return PeakValue(float(self.values[at]), int(self.steps[at]), float(self.at[at]))
-
-
-class Extremes:
-    """The least and the largest values of columns over steps."""
-
-    def __init__(self, columns: int) -> None:
-        self.least, self.largest = Best(columns, 1.0), Best(columns, -1.0)
-
-    def take(self, start: int, figure: StepValues) -> None:
-        """Add the values of the steps from `start` on."""
-        self.least.take(start, figure)
-        self.largest.take(start, figure)
-
-    def farthest(self) -> PeakValue | None:
-        """Return the value with the largest magnitude; None without any."""
-        peaks = [peak for peak in (self.least.peak(), self.largest.peak()) if peak is not None]
-        return min(peaks, key=lambda peak: (-abs(peak.value), peak.step), default=None)
-
-    def extent(self, column: int, times: Floats | None) -> tuple[float, float, float, float] | None:
-        """Return the least value of a column, its time, the largest value and its time; None without any."""
-        if times is None or self.least.steps[column] < 0:
-            return None
-        low, high = (
-            (float(best.values[column]), float(times[best.steps[column]])) for best in (self.least, self.largest)
-        )
-        return *low, *high
 
 
 class SeriesSummary:
@@ -295,24 +225,25 @@ def _extremes(
     for figure, extremes in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
         quantity = quantities[figure]
         for side, best in (("least", extremes.least), ("largest", extremes.largest)):
-            name, steps, known = f"{quantity.name}_{side}", best.steps, best.steps >= 0
-            yield ResultColumn(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))
-            yield ResultColumn(f"{name}_step", steps, blank=_NO_STEP)
+            name, steps = f"{quantity.name}_{side}", best.steps
+            yield ResultColumn(name, best.values, unit=quantity.unit_name(units))
+            yield ResultColumn(f"{name}_step", steps, blank=NO_STEP)
             if times is not None:
-                yield ResultColumn(f"{name}_time", np.where(known, times[steps], np.nan), unit=UNITS[units].unit("T"))
+                time = np.where(steps >= 0, times[steps], np.nan)
+                yield ResultColumn(f"{name}_time", time, unit=UNITS[units].unit("T"))
 
 
 def _totals(summary: SeriesSummary, times: Floats | None) -> list[ResultColumn]:
     """Return a row for each figure of `STEPS` with its largest value over all steps."""
     peaks = summary.totals()
-    largest = [peaks.get(name, PeakValue(np.nan, _NO_STEP)) for name in STEPS]
+    largest = [peaks.get(name, PeakValue(np.nan, NO_STEP)) for name in STEPS]
     numbers = [summary.number(peak) for peak in largest]
     steps = np.array([peak.step for peak in largest], np.int64)
     elements = np.array([NO_ELEMENT if number is None else number for number in numbers], np.int64)
     columns = [
         ResultColumn("figure", np.arange(len(STEPS)), (*STEPS, None)),
         ResultColumn("largest", np.array([peak.value for peak in largest])),
-        ResultColumn("step", steps, blank=_NO_STEP),
+        ResultColumn("step", steps, blank=NO_STEP),
         ResultColumn("element", elements, blank=NO_ELEMENT),
     ]
     if times is not None:

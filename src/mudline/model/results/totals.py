@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from mudline.model.contact import ContactResult, LawKind
 from mudline.model.contact.lines import LineSummary
 from mudline.model.contact.result import ResultPart, total_normal_force
 from mudline.model.results.evaluation import Evaluation
+from mudline.model.results.extremes import StepValues, largest_of_steps
 from mudline.model.scene.numbering import Floats, Indices, Mask
 
 NOT_KNOWN = "not known"
@@ -155,16 +156,6 @@ def _deepest(depth: Floats) -> float | None:
     return finite(float(known.max())) if known.size else None
 
 
-class StepValues(NamedTuple):
-    """Values (steps, k) of some steps: numbers, NaN for none, or a condition, whose steps are counted.
-
-    `at` (steps, k) goes with the numbers: index of the element of a number, -1 for none.
-    """
-
-    values: NDArray[np.floating] | NDArray[np.bool_]
-    at: NDArray[Any] | None = None
-
-
 def step_figures(part: ResultPart) -> dict[str, StepValues]:
     """Return the figures of `STEPS` for the steps of a part, each as one column."""
     result, chosen = part.result, np.flatnonzero(part.result.evaluated)
@@ -173,17 +164,8 @@ def step_figures(part: ResultPart) -> dict[str, StepValues]:
     force = result.force[:, chosen]
     return {
         "reaction": StepValues(reaction[:, np.newaxis]),
-        "force": _largest(force, chosen, by_size=True),
-        "pull": _largest(np.maximum(0.0 - force, 0.0), chosen, by_size=False),
+        "force": largest_of_steps(force, chosen, by_size=True),
+        "pull": largest_of_steps(np.maximum(0.0 - force, 0.0), chosen),
         "touching": StepValues(carried(result)[:, chosen].sum(axis=1, keepdims=True, dtype=np.float64)),
-        "deepest": _largest(result.depth[:, chosen], chosen, by_size=False),
+        "deepest": largest_of_steps(result.depth[:, chosen], chosen),
     }
-
-
-def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> StepValues:
-    if not values.shape[1]:
-        return StepValues(np.full((len(values), 1), np.nan), np.full((len(values), 1), -1))
-    ranked = np.where(np.isnan(values), -np.inf, np.abs(values) if by_size else values)
-    column = ranked.argmax(axis=1)[:, np.newaxis]
-    largest = np.take_along_axis(values, column, axis=1)
-    return StepValues(largest, np.where(np.isnan(largest), -1, chosen[column]))

@@ -25,6 +25,7 @@ from mudline.model.contact import ContactModel, ContactResult, LawKind
 from mudline.model.contact.columns import kept
 from mudline.model.contact.result import ResultPart
 from mudline.model.results.evaluation import Evaluation, PositionSource, evaluate_scene
+from mudline.model.results.extremes import Best, largest_of_steps
 from mudline.model.scene.given_positions import Doubt, height_along_z, position_doubts
 from mudline.model.scene.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.model.scene.model import Scene
@@ -169,8 +170,8 @@ class ContactWatch:
         self._sprung = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
         self._sprung |= bool((scene.resistance.column("suction") > 0.0).any())
         self._acts = False
-        self._clearance = (math.inf, -1, 0)
-        """The smallest distance of a node above the seabed, the index of the node, and the step."""
+        self._deepest = Best(1, -1.0)
+        """The largest depth of a node below the seabed, at the index of the node."""
         self.balance = _Balance()
         self._survey = survey_of(scene.seabed)
         lawful = self._elements[scene.law[self._elements] != LawKind.NONE]
@@ -193,11 +194,8 @@ class ContactWatch:
             # a spring acts on a node without an element in contact
             self._acts |= self._sprung and bool(kept(result.normal_force, self._nodes).any())
             if not self._acts:
-                gap = kept(result.gap, self._nodes)
-                least = float(np.fmin.reduce(gap, axis=None, initial=np.inf))  # NaN means no seabed
-                if least < self._clearance[0]:
-                    step, column = np.argwhere(gap == least)[0].tolist()
-                    self._clearance = (least, int(self._nodes[column]), part.start + step)
+                depth = -kept(result.gap, self._nodes)
+                self._deepest.take(part.start, largest_of_steps(depth, self._nodes))
         self._weigh(result)
         if self._survey is not None:
             for step, places in enumerate(self._positions[part.steps], part.start):
@@ -282,7 +280,7 @@ class ContactWatch:
     def _beyond(self) -> Iterator[ContactWarning]:
         """Yield a warning about nodes beyond the end of the surveyed seabed at some step."""
         left = np.flatnonzero(self._left)
-        all_without = not self._acts and self._clearance[1] < 0  # GEO005 then says it of the whole line
+        all_without = not self._acts and self._deepest.peak() is None  # GEO005 then says it of the whole line
         if self._survey is None or not left.size or all_without:
             return
         scene = self._scene
@@ -298,16 +296,17 @@ class ContactWatch:
 
     def _apart(self) -> Iterator[ContactWarning]:
         """Yield a warning if nothing is in contact at any step."""
-        scene, (gap, node, step) = self._scene, self._clearance
+        scene, deepest = self._scene, self._deepest.peak()
         if self._acts or not self._elements.size:
             return
-        if node < 0:
+        if deepest is None:
             message = "nothing is in contact: the line lies outside the seabed; correct its bounds or the coordinates"
             yield self._warning(GEO005, message, None, self._elements, "line outside the seabed")
             return
+        gap, node = -deepest.value, int(deepest.at)
         distance = f"{shown(abs(gap))}{UNITS[scene.units].behind('L')}"
         times = self._times
-        at = "" if times is None else f" at time {shown(float(times[step]))}"
+        at = "" if times is None else f" at time {shown(float(times[deepest.step]))}"
         number = scene.node_ids[node]
         message = f"nothing is in contact: the smallest clearance is {distance}, of node {number}{at}"
         if gap < 0.0:

@@ -20,7 +20,7 @@ from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.basics.quantities import STEPS, labelled
 from mudline.basics.units import UNITS
 from mudline.model.contact import ContactResult, LawKind
-from mudline.model.results.plot_data import Extents, PlotData
+from mudline.model.results.plot_data import Bins, PlotData
 from mudline.model.results.plots import along_line
 from mudline.model.results.plots.along_line import DrawnStretch, mark_touchdown, when
 from mudline.model.results.plots.curves import loop, on_curves
@@ -76,7 +76,7 @@ def panels_of(data: PlotData) -> list[Panel]:
     # the force of a rigid seabed is not known: no panel shows it as 0
     touched = bool((data.touched & (data.given.law != LawKind.RIGID)).any())
     lined = data.elements.size > 0
-    touches_down = any(np.isfinite(first.most).any() for first, _ in data.touchdown.values())
+    touches_down = any(np.isfinite(first.largest).any() for first, _ in data.touchdown.values())
 
     loops = [Panel("loop", "own", partial(loop, place=place)) for place in range(len(data.looped))]
     others = (
@@ -168,7 +168,7 @@ def touchdown(axes: Axes, stretch: DrawnStretch) -> None:
     data, several = stretch.data, len(stretch.lines) > 1
     for line in stretch.lines:
         first, last = data.touchdown[line.number]
-        two = not np.array_equal(first.most, last.most, equal_nan=True)
+        two = not np.array_equal(first.largest, last.largest, equal_nan=True)
         name = f"line {line.number + 1}" if several else "first touchdown point" if two else "touchdown point"
         _band(axes, data, first, line.style, name)
         if two:
@@ -185,14 +185,14 @@ def reaction(axes: Axes, stretch: DrawnStretch) -> None:
     axes.set_ylabel(STEPS["reaction"].axis(data.given.units))
 
 
-def _band(axes: Axes, data: PlotData, values: Extents, style: Style, label: str | None) -> None:
+def _band(axes: Axes, data: PlotData, values: Bins, style: Style, label: str | None) -> None:
     """Draw a figure over time; for many steps, the band between its least and largest values."""
     times = data.bin_times
-    if np.array_equal(values.least, values.most, equal_nan=True):
-        draw_line(axes, times, values.most, style, label, most_marked=25)
+    if np.array_equal(values.least, values.largest, equal_nan=True):
+        draw_line(axes, times, values.largest, style, label, most_marked=25)
     else:
-        axes.fill_between(times, values.least, values.most, color=style.color, linewidth=0.6, label=label)
-    widen(axes, np.concatenate([values.least, values.most]))
+        axes.fill_between(times, values.least, values.largest, color=style.color, linewidth=0.6, label=label)
+    widen(axes, np.concatenate([values.least, values.largest]))
     last = float(data.steps - 1) if data.times is None else float(data.times[-1])
     beside = 0.01 * (last - float(times[0])) or 0.5
     axes.set_xlim(float(times[0]) - beside, last + beside)

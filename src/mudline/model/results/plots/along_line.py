@@ -13,7 +13,8 @@ from matplotlib.text import Annotation
 
 from mudline.basics.quantities import ELEMENTS, NODES, SLIDING, STATES, labelled
 from mudline.basics.units import UNITS
-from mudline.model.results.plot_data import Chosen, Extents, PlotData
+from mudline.model.results.extremes import Extremes
+from mudline.model.results.plot_data import Chosen, PlotData
 from mudline.model.results.plots.style import (
     SEABED,
     STATE_STYLES,
@@ -103,8 +104,9 @@ class DrawnStretch:
         """Return the elements of a line where contact begins or ends, or the embedment changes, at any step."""
         data, elements = self.data, self.data.given.lines.elements[line]
         elements = elements[np.isin(elements, data.elements)]
-        touched, deepest = data.touched[elements], float(np.nan_to_num(data.depth.most).max(initial=0.0))
-        steps = [np.abs(np.diff(np.nan_to_num(each[elements]))) for each in (data.depth.least, data.depth.most)]
+        touched, depths = data.touched[elements], (data.depth.least.values, data.depth.largest.values)
+        deepest = float(np.nan_to_num(depths[1]).max(initial=0.0))
+        steps = [np.abs(np.diff(np.nan_to_num(each[elements]))) for each in depths]
         differs = (np.maximum(*steps) > _CHANGE * deepest) | (touched[1:] != touched[:-1])
         at = np.flatnonzero(differs & (touched[1:] | touched[:-1]))
         return elements[np.union1d(at, at + 1)]
@@ -130,7 +132,7 @@ class DrawnStretch:
 def force(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the seabed reaction of the elements, or on the nodes if only springs of nodes act."""
     data, result, units = stretch.data, stretch.data.drawn.result, stretch.data.given.units
-    _extents(axes, data.force, stretch)
+    _extremes(axes, data.force, stretch)
     if not np.nan_to_num(result.force).any() and np.nan_to_num(result.normal_force).any():
         for line in stretch.lines:
             draw_line(axes, line.node_arcs, result.normal_force[line.nodes], line.style)
@@ -138,7 +140,7 @@ def force(axes: Axes, stretch: DrawnStretch) -> None:
     else:
         _of_elements(axes, result.force, stretch)
         axes.set_ylabel(ELEMENTS["force"].axis(units))
-        arcs, forces = data.given.lines.element_arc, np.nan_to_num(data.force.most)
+        arcs, forces = data.given.lines.element_arc, np.nan_to_num(data.force.largest.values)
         at = int(np.argmax(forces))
         if not stretch.limits[0] <= arcs[at] <= stretch.limits[1] and forces[at] > 0.0:
             system = UNITS[units]
@@ -150,10 +152,10 @@ def force(axes: Axes, stretch: DrawnStretch) -> None:
 def embedment(axes: Axes, stretch: DrawnStretch) -> None:
     """Draw the embedment of the elements, downwards; parts that hang high do not hide the embedment of the others."""
     data = stretch.data
-    _extents(axes, data.depth, stretch)
+    _extremes(axes, data.depth, stretch)
     _of_elements(axes, data.drawn.result.depth, stretch)
     axes.axhline(0.0, color=SEABED, linewidth=1.2, zorder=1)
-    deepest = float(np.nan_to_num(data.depth.most).max(initial=0.0))
+    deepest = float(np.nan_to_num(data.depth.largest.values).max(initial=0.0))
     top, bottom = axes.get_ylim()
     if deepest > 0.0:
         top, bottom = min(max(top, -0.6 * deepest), -0.06 * deepest), 1.08 * deepest
@@ -220,13 +222,13 @@ def _of_elements(axes: Axes, values: Floats, stretch: DrawnStretch, *, mark: boo
     widen(axes, np.concatenate([np.zeros(0), *(values[line.elements] for line in stretch.lines)]))
 
 
-def _extents(axes: Axes, extents: Extents, stretch: DrawnStretch) -> None:
+def _extremes(axes: Axes, extremes: Extremes, stretch: DrawnStretch) -> None:
     """Shade the range between the least and the largest values of the elements over the steps of a series."""
     if stretch.data.steps == 1:
         return
     for line in stretch.lines:
-        kept = thinned(extents.most[line.elements])
-        least, most = extents.least[line.elements[kept]], extents.most[line.elements[kept]]
+        kept = thinned(extremes.largest.values[line.elements])
+        least, most = (each.values[line.elements[kept]] for each in (extremes.least, extremes.largest))
         label = "least to largest of all steps" if line is stretch.lines[0] else None
         arcs, color = line.element_arcs[kept], line.style.color
         axes.fill_between(arcs, least, most, color=color, alpha=0.2, linewidth=0.0, label=label)
@@ -283,7 +285,7 @@ def line(axes: Axes, stretch: DrawnStretch) -> None:
 def _crop(axes: Axes, stretch: DrawnStretch) -> None:
     """Crop parts that hang so high that nothing of the contact with the seabed would be seen."""
     data = stretch.data
-    sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
+    sizes = (np.nan_to_num(data.depth.largest.values), np.nan_to_num(data.given.diameter))
     most = max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
     nodes = np.concatenate([line.nodes for line in stretch.lines])
     near = nodes[data.drawn.result.gap[nodes] <= most]

@@ -119,6 +119,7 @@ def draw_curve(axes: Axes, name: str, points: FloatArray) -> None:
     drawn = axes.get_legend_handles_labels()[1]
     _curve(axes, {"name": name, "kind": OF_SEABED, "points": points}, style_of(len(drawn)))
     axes.set(xlabel=labelled(ELEMENTS["ratio"].label, "-"), ylabel=ELEMENTS["force"].label.replace("\n", " "))
+    finish(axes)
     legend(axes)
 
 

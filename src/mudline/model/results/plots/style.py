@@ -147,6 +147,11 @@ def finish(axes: Axes) -> None:
     height = axes.get_position().height * (figure.get_figheight() if isinstance(figure, Figure) else 4.0)  # inch
     if isinstance(axes.yaxis.get_major_locator(), AutoLocator):
         axes.yaxis.set_major_locator(MaxNLocator(nbins=max(3, min(8, round(4.0 * height))), **_TICKS))
+    frame(axes)
+
+
+def frame(axes: Axes) -> None:
+    """Set a grid behind the data, and no lines at the top and on the right."""
     axes.grid(visible=True, color="0.88", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
