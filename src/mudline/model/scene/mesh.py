@@ -252,10 +252,12 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
 
 def _lengths(ends: Indices, coordinates: Floats) -> Floats:
     """Return distances between the nodes, NaN if one is not known."""
-    places = np.concatenate((coordinates, np.full((1, 3), np.nan)))  # -1, an unknown node, is the last one
-    length = np.empty(len(ends))
+    length = np.full(len(ends), np.nan)
     for block in blocks_of(len(ends)):
-        length[block] = distances(*places.take(ends[block].T, axis=0))  # an index takes longer
+        first, last = ends[block].T
+        known = ((first >= 0) & (last >= 0)).nonzero()[0]
+        points, others = (coordinates.take(end[known], axis=0) for end in (first, last))  # an index takes longer
+        length[block][known] = distances(points, others)
     return length
 
 
