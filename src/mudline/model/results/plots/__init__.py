@@ -31,12 +31,12 @@ from mudline.model.results.plots.style import (
     Style,
     draw_line,
     drawing,
+    figure_text,
     finish,
     gapped,
     legend,
     legend_name,
     new_figure,
-    printable,
     save,
     style_of,
     thinned,
@@ -102,7 +102,7 @@ def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
     wide = len(panels) % columns
     """With an odd number of panels the first is as wide as the figure."""
     rows = max(1, -(-len(panels) // columns))
-    title = "\n".join([_title(data, panels, stretch), *textwrap.wrap(printable(caption, LONGEST_MESSAGE), _CAPTION)])
+    title = "\n".join([_title(data, panels, stretch), *textwrap.wrap(figure_text(caption, LONGEST_MESSAGE), _CAPTION)])
     figure = new_figure(0.2 + 0.17 * (1 + title.count("\n")) + _HEIGHT * rows)
     grid = figure.add_gridspec(rows, columns)
     drawn: list[list[Axes]] = [[] for _ in range(columns)]
@@ -128,7 +128,7 @@ def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
 def _title(data: PlotData, panels: Sequence[Panel], stretch: DrawnStretch) -> str:
     """Return the title: the deck, and the step and the part of the line that panels along the line show."""
     source = "" if data.given.names is None else data.given.names.source
-    title = f"Seabed contact of {printable(source, _CAPTION)}" if source else "Seabed contact"
+    title = f"Seabed contact of {figure_text(source, _CAPTION)}" if source else "Seabed contact"
     at = when(data, data.drawn.step)
     if not any(panel.axis == "arc length" for panel in panels):
         return title
@@ -322,5 +322,5 @@ def run_times_figure(deck: str, run_times: Floats, errors: Floats, marked: Mask,
     """Return the diagram of a deck."""
     figure = new_figure(5.2)
     draw_run_times(figure.subplots(), run_times, errors, marked, names)
-    figure.suptitle(f"Error against run time: {printable(deck, 100)}", fontsize="medium").set_parse_math(False)
+    figure.suptitle(f"Error against run time: {figure_text(deck, 100)}", fontsize="medium").set_parse_math(False)
     return figure

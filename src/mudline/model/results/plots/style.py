@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import AutoLocator, MaxNLocator, ScalarFormatter
 
-from mudline.basics.short_repr import cut
+from mudline.basics.short_repr import cut, printable
 from mudline.model.scene.numbering import Floats, Indices
 
 WIDTH = 8.0
@@ -97,14 +97,14 @@ def save(figure: Figure, form: str, stream: BinaryIO) -> None:
 # -------------------------------------------------------------------------------------------------- texts and legends
 
 
-def printable(text: str, most: int = LONGEST_NAME) -> str:
+def figure_text(text: str, most: int = LONGEST_NAME) -> str:
     """Return a text of a deck for display: cut, with a mark for letters that do not print."""
-    return "".join(char if char.isprintable() else "\ufffd" for char in cut(text.replace("\t", " "), most))
+    return printable(cut(text.replace("\t", " "), most))
 
 
 def legend_name(text: str, most: int = LONGEST_NAME) -> str:
     """Return a name of a deck for a legend; matplotlib would leave out a name that begins with an underscore."""
-    shown = printable(text, most)
+    shown = figure_text(text, most)
     return f" {shown}" if shown.startswith("_") else shown
 
 
