@@ -110,6 +110,7 @@ PROFILE = "*RIGID SURFACE\n 0.3, 0.6\n 0.0, 0.0\n 50.0, 0.0\n 100.0, -0.1\n"
         (PROFILE + HELD + " 1, 2\n", 0),
         (PROFILE + HELD + " 11, 2\n", 1),
         (RIGID + "*SEABED PROFILE\n TYPE=2D\n FILE=nowhere.txt\n" + HELD + " 11, 2\n", 0),
+        (RIGID + "*SEABED PROFILE\n DIRECTION=north\n" + HELD + " 1, 2\n", 0),  # nobody knows its direction
     ],
 )
 def test_one_of_two_degrees_of_freedom(lines: str, expected: int) -> None:

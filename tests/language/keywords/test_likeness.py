@@ -69,6 +69,11 @@ def test_words_behind_a_name_are_told_and_can_be_removed() -> None:
             " (did you mean NODE SPRING?)",
             Severity.WARNING,
         ),
+        (
+            "$LOAD CASE\n*BOUNDRY\n TYPE=VESSEL\n VESSEL=Semi\n 1, 1\n 2, 1\n 3, 1\n",
+            " (did you mean BOUNDARY?)",
+            Severity.WARNING,
+        ),
         ("$LOAD CASE\n*TEMPERATURES\n 4.0\n", " (did you mean TEMPERATURE?)", Severity.INFO),
         ("$MODEL\n*NODES\n", " (did you mean NODE?)", Severity.WARNING),
     ],

@@ -20,7 +20,6 @@ from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number
-from mudline.language.syntax.tree import is_comment
 from mudline.model.contact.input import LawKind
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
@@ -255,20 +254,14 @@ def _is_whole(context: LintContext) -> bool:
     shown = {section.name for section in scene.deck.sections if section.name in _PARTS}
     if len(shown) < len(_PARTS) or not len(scene.element_ids) or reading.external_definers or reading.restart:
         return False
-    kept: dict[str, int] = {}
-    for where, section, block, lines in context.once(_with_lines):
-        if section in _PARTS and block.keyword in reading.unread:
-            read = 0 if type(block) is Opaque else len(lines)
-            kept[block.keyword] = kept.get(block.keyword, 0) + read - scene.deck.lost(where)
-    return all(kept.get(keyword, -1) >= 0 for keyword in reading.unread)
+    blocks = [each for each in context.once(_with_lines) if each[1] in _PARTS and each[2].keyword in reading.unread]
+    lost = any(scene.deck.lost(where, kept=type(block) is Opaque) for where, _, block, _ in blocks)
+    return not lost and reading.unread == {block.keyword for _, _, block, _ in blocks}
 
 
 def _with_lines(context: LintContext) -> list[tuple[Where, str, Block | Opaque, list[str]]]:
     """Return place, section, block and lines that are passed through of every block of the scene's deck."""
-    return [
-        (where, section, block, [line for line in raw_lines(block) if not is_comment(line, words=True)])
-        for where, section, block in context.scene.deck.every_block()
-    ]
+    return [(*placed, raw_lines(placed[2])) for placed in context.scene.deck.every_block()]
 
 
 def lacks(context: LintContext, *gifts: Gift) -> bool:

@@ -217,7 +217,7 @@ def _on_slope(context: LintContext) -> Mask:
     """Return a mask (n,) of the nodes within a diameter of a profile or a uniform slope that is not level."""
     scene, floor = context.scene, context.scene.seabed
     places, sloping = scene.coordinates, np.zeros(len(scene.node_ids), dtype=np.bool_)
-    if floor.kind not in (SeabedKind.SLOPING, SeabedKind.PROFILE):
+    if floor.kind not in (SeabedKind.SLOPING, SeabedKind.PROFILE) or math.isnan(floor.direction):
         return sloping
     near = 1e-6 * np.abs(places).max(axis=1, initial=1e-3)  # coordinates are rounded when they are written
     aside = near[:, np.newaxis] * (0.0, *heading(floor.direction))

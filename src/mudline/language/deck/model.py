@@ -121,8 +121,8 @@ class Origin:
         """Return lines and columns of a problem in the file, whose text may be that of a document."""
         return self.place(problem)
 
-    def lost(self, section: int, block: int) -> int:
-        """Return the number of lines of a block that could not be used at all."""
+    def lost(self, section: int, block: int, *, kept: bool = True) -> int:
+        """Return the number of lines of a block that could not be used at all, with or without those it keeps."""
         return 0
 
     def written(self, where: Where) -> bool:
@@ -240,10 +240,10 @@ class Deck:
         deck, own = self._owned(problem if isinstance(problem, Problem) else Problem(_PLACED, "", where=problem))
         return deck.origin.place_in_file(own)
 
-    def lost(self, where: Where) -> int:
-        """Return the number of lines of a block that could not be used at all."""
+    def lost(self, where: Where, *, kept: bool = True) -> int:
+        """Return the number of lines of a block that could not be used at all, with or without those it keeps."""
         deck, inner = self._owned_at(where)
-        return deck.origin.lost(inner.section, inner.block)
+        return deck.origin.lost(inner.section, inner.block, kept=kept)
 
     def written(self, where: Where) -> bool:
         """Return True if the file of the value contains exactly this value."""

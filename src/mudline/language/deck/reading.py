@@ -98,10 +98,10 @@ class TextOrigin(Origin):
             return START
         return Range(*self.source.position(span.start), *self.source.position(max(span.start, span.end)))
 
-    def lost(self, section: int, block: int) -> int:
-        """Return the number of lines of a block that could not be used at all."""
+    def lost(self, section: int, block: int, *, kept: bool = True) -> int:
+        """Return the number of lines of a block that could not be used at all, with or without those it keeps."""
         read = self.read.get((section, block))
-        return read.lost if read else 0
+        return 0 if read is None else read.lost if kept else read.lost - read.kept
 
     def written(self, where: Where) -> bool:
         """Return True if the file contains exactly this value."""

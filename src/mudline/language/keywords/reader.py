@@ -40,9 +40,11 @@ class ReadBlock:
 
     Attributes:
         own: places in the text that was read.
-        lost: number of lines that could not be used at all; their definitions are unknown.
+        lost: number of lines that could not be used at all; their definitions are unknown. Rows below each other that
+            are passed through count as one.
         whole: text that contains the piece that was read, and the offset of the piece in it.
         opaque: True if mandatory lines may be among lines of unknown form: the block is then passed through unchanged.
+        kept: number of lost lines that are passed through.
     """
 
     model: Block
@@ -52,6 +54,7 @@ class ReadBlock:
     lost: int = 0
     whole: tuple[str, int] | None = None
     opaque: bool = False
+    kept: int = 0
 
     __repr__ = short_repr
 
@@ -64,7 +67,9 @@ class ReadBlock:
 
     def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
         """Return the block as part of a text in which its piece begins at `start`, with its problems there."""
-        return ReadBlock(self.model, self.own, problems, self.trailing, self.lost, (text, start), self.opaque)
+        return ReadBlock(
+            self.model, self.own, problems, self.trailing, self.lost, (text, start), self.opaque, self.kept
+        )
 
 
 class BlockReader(Protocol):
@@ -96,7 +101,7 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
     reader = _BlockParser(text, raw, declared, last=False)
     if tree_of(declared.rule, reader.contents()) is None or reader.lost:
         return False
-    kept = reader.kept_lines
+    kept = len(reader.kept)
     block = read_block(text, raw, declared, last=False)
     if block.lost != kept or any(problem.weight is Severity.ERROR for problem in block.problems):
         return False
@@ -136,11 +141,6 @@ class _BlockParser:
             noticed += doubtful(self.problems)
             self._keep_all(odd, contents)
 
-    @property
-    def kept_lines(self) -> int:
-        """Number of lines that the block keeps; rows below each other are one piece of the text."""
-        return sum(piece.text.removesuffix("\n").count("\n") + 1 for piece in self.kept)
-
     def _attempt(self, contents: list[Content]) -> ReadBlock:
         mismatches: list[Mismatch] = []
         node = tree_of(self.declared.rule, contents)
@@ -157,7 +157,7 @@ class _BlockParser:
             self._report(mismatch)
         built = builder.build(self.declared, node)
         trailing = attach(self.comments, self.kept, built, self.places) if self.comments or self.kept else []
-        self.lost += builder.lost + self.kept_lines
+        self.lost += builder.lost + len(self.kept)
         model = self._model(built)
         problems = merge_per_line(self.text, self.problems)
         may_keep = "unread" in self.declared.model_fields
@@ -166,8 +166,10 @@ class _BlockParser:
             lines = [item.found.span for item in mismatches if item.found and item.found.span.start < first]
             certain = [item for item in problems if item.span and any(a <= item.span.start < b for a, b in lines)]
             rest = [problem for problem in problems if problem not in certain]
-            return ReadBlock(model, self.places, [*certain, *doubtful(rest)], lost=self.lost, opaque=True)
-        return ReadBlock(model, self.places, problems, trailing, self.lost)
+            return ReadBlock(
+                model, self.places, [*certain, *doubtful(rest)], lost=self.lost, opaque=True, kept=len(self.kept)
+            )
+        return ReadBlock(model, self.places, problems, trailing, self.lost, kept=len(self.kept))
 
     def _model(self, built: ParsedRecord) -> Block:
         """Return the validated model; for a block with faults an unvalidated model of its readable values."""
