@@ -255,7 +255,7 @@ def _is_whole(context: LintContext) -> bool:
     if len(shown) < len(_PARTS) or not len(scene.element_ids) or reading.external_definers or reading.restart:
         return False
     blocks = [each for each in context.once(_with_lines) if each[1] in _PARTS and each[2].keyword in reading.unread]
-    lost = any(scene.deck.lost(where, kept=type(block) is Opaque) for where, _, block, _ in blocks)
+    lost = any(scene.deck.lost(where, kept=False) for where, *_ in blocks)
     return not lost and reading.unread == {block.keyword for _, _, block, _ in blocks}
 
 

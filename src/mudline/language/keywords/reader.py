@@ -44,7 +44,8 @@ class ReadBlock:
             are passed through count as one.
         whole: text that contains the piece that was read, and the offset of the piece in it.
         opaque: True if mandatory lines may be among lines of unknown form: the block is then passed through unchanged.
-        kept: number of lost lines that are passed through.
+        kept: number of lost lines that are passed through on purpose; 0 in a block with an error, where others may look
+            like them.
     """
 
     model: Block
@@ -166,10 +167,9 @@ class _BlockParser:
             lines = [item.found.span for item in mismatches if item.found and item.found.span.start < first]
             certain = [item for item in problems if item.span and any(a <= item.span.start < b for a, b in lines)]
             rest = [problem for problem in problems if problem not in certain]
-            return ReadBlock(
-                model, self.places, [*certain, *doubtful(rest)], lost=self.lost, opaque=True, kept=len(self.kept)
-            )
-        return ReadBlock(model, self.places, problems, trailing, self.lost, kept=len(self.kept))
+            return ReadBlock(model, self.places, [*certain, *doubtful(rest)], lost=self.lost, opaque=True)
+        faulty = any(problem.weight is Severity.ERROR for problem in problems)
+        return ReadBlock(model, self.places, problems, trailing, self.lost, kept=0 if faulty else len(self.kept))
 
     def _model(self, built: ParsedRecord) -> Block:
         """Return the validated model; for a block with faults an unvalidated model of its readable values."""
