@@ -187,7 +187,7 @@ def _near(given: str) -> Iterator[str]:
     """Yield the decks and configurations in or below a folder, or a file and those next to it; and those above."""
     folder = given if os.path.isdir(given) else os.path.dirname(given) or "."  # noqa: PTH112, PTH120 - Path raises for a long name
     if folder == given:
-        yield from (path for _, path in Search(folder, gitignore=False).files(_is_watched))
+        yield from (path for _, path in Search(folder).files(_is_watched))
     else:
         yield given
         with suppress(OSError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -73,6 +74,7 @@ def test_what_cannot_be_read_or_is_too_large_continues_nothing(tmp_path: Path, m
     child.write_text(f"$MODEL\n{CURVE}{GOES_ON}")
     (tmp_path / "child.json").write_text("RESTART {")
     (tmp_path / "folder.keyxm").mkdir()
+    os.mkfifo(tmp_path / "pipe.keyxm")  # to open it would wait for ever
     monkeypatch.setattr(refusals, "LARGEST_NEIGHBOUR", child.stat().st_size)
     assert Continuations(()).of(base) == [child.as_posix()]
     monkeypatch.setattr(refusals, "LARGEST_NEIGHBOUR", child.stat().st_size - 1)

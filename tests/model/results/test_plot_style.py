@@ -11,7 +11,7 @@ pytest.importorskip("matplotlib")
 
 from mudline.model.results.curve_rows import curve_rows
 from mudline.model.results.plots.curves import curves_figure
-from mudline.model.results.plots.style import style_of
+from mudline.model.results.plots.style import finish, new_figure, style_of
 from mudline.model.scene.curves import OF_SEABED
 from mudline.model.scene.model import resolve
 from tests.helpers.samples import sample
@@ -39,3 +39,15 @@ def test_axes_of_every_kind_have_their_units() -> None:
         ("curvature [1/m]", "moment [N m]"),
         ("twist [1/m]", "torque [N m]"),
     ]
+
+
+def test_axes_of_a_caller_keep_what_was_set_on_them() -> None:
+    figure = new_figure(3.0)
+    named, scaled, polar = figure.add_subplot(131), figure.add_subplot(132), figure.add_subplot(133, projection="polar")
+    named.set_xticks([0.0, 1.0], ["mudline", "depth"])
+    scaled.set_xscale("log")
+    ticks = scaled.xaxis.get_major_locator()
+    for axes in (named, scaled, polar):
+        finish(axes)
+    assert [text.get_text() for text in named.get_xticklabels()] == ["mudline", "depth"]
+    assert scaled.xaxis.get_major_locator() is ticks

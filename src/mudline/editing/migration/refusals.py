@@ -13,7 +13,7 @@ from mudline.basics.limits import LARGEST_NEIGHBOUR
 from mudline.language.codes import MIG001
 from mudline.language.deck.loading import load_path
 from mudline.language.deck.model import Deck, Opaque
-from mudline.language.deck.searching import is_in_any_form
+from mudline.language.deck.searching import is_in_any_form, may_be_file
 from mudline.language.diagnostics import DeckError, Problem, Where
 from mudline.language.keywords.catalogue import (
     facts_of,
@@ -189,7 +189,7 @@ class Continuations:
     def look_in(self, folder: Path) -> None:
         """Read new and changed decks of a folder, and forget decks that no longer exist."""
         self._looked.add(folder)
-        there = {file for file in folder.iterdir() if is_in_any_form(str(file))}
+        there = {file for file in folder.iterdir() if may_be_file(str(file)) and is_in_any_form(str(file))}
         for gone in [file for file in self._visited if file.parent == folder and file not in there]:
             del self._visited[gone]
         for file in sorted(there):

@@ -137,16 +137,16 @@ def legend(axes: Axes, handles: Sequence[Artist] = (), *, title: str = "", note:
 
 
 def finish(axes: Axes) -> None:
-    """Set plain numbers and a grid, as in every panel; ticks set earlier stay."""
-    for axis in (axes.xaxis, axes.yaxis):
-        numbers = ScalarFormatter(useOffset=False)
-        numbers.set_powerlimits((-5, 10))  # otherwise a reader would have to apply a power of ten
-        axis.set_major_formatter(numbers)
-    axes.xaxis.set_major_locator(MaxNLocator(nbins=7, **_TICKS))
+    """Set plain numbers and a grid, as in every panel; ticks and their texts that were set earlier stay."""
     figure = axes.figure
     height = axes.get_position().height * (figure.get_figheight() if isinstance(figure, Figure) else 4.0)  # inch
-    if isinstance(axes.yaxis.get_major_locator(), AutoLocator):
-        axes.yaxis.set_major_locator(MaxNLocator(nbins=max(3, min(8, round(4.0 * height))), **_TICKS))
+    for axis, ticks in ((axes.xaxis, 7), (axes.yaxis, max(3, min(8, round(4.0 * height))))):
+        if isinstance(axis.get_major_formatter(), ScalarFormatter):
+            numbers = ScalarFormatter(useOffset=False)
+            numbers.set_powerlimits((-5, 10))  # otherwise a reader would have to apply a power of ten
+            axis.set_major_formatter(numbers)
+        if isinstance(axis.get_major_locator(), AutoLocator):
+            axis.set_major_locator(MaxNLocator(nbins=ticks, **_TICKS))
     frame(axes)
 
 
@@ -154,7 +154,8 @@ def frame(axes: Axes) -> None:
     """Set a grid behind the data, and no lines at the top and on the right."""
     axes.grid(visible=True, color="0.88", linewidth=0.6)
     axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)
+    for side in {"top", "right"} & {*axes.spines}:
+        axes.spines[side].set_visible(False)
 
 
 def zero_line(axes: Axes) -> None:
