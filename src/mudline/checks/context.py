@@ -23,7 +23,6 @@ from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.language.syntax.source import Source
 from mudline.language.syntax.tree import RawBlock
 from mudline.model.scene.context import placed_blocks
-from mudline.model.scene.context import records_of as records_of  # noqa: PLC0414 - rules take it here
 from mudline.model.scene.model import Scene, resolve
 
 T = TypeVar("T")

@@ -9,7 +9,7 @@ from itertools import chain
 
 import numpy as np
 
-from mudline.checks.context import LintContext, records_of
+from mudline.checks.context import LintContext
 from mudline.checks.rules.curve_points import LARGEST_RATIO
 from mudline.checks.rules.seabed_position import UNT006, height_over_depth
 from mudline.checks.rules.unusual import of_code
@@ -17,6 +17,7 @@ from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.table import Table
 from mudline.language.rules import rule
+from mudline.model.scene.context import records_of
 from mudline.model.scene.curves import SceneCurve
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene

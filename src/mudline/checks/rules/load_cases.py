@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.checks.context import LintContext, records_of
+from mudline.checks.context import LintContext
 from mudline.checks.rules.references import in_water
 from mudline.language.deck.parameters import name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Where
@@ -18,6 +18,7 @@ from mudline.language.keywords.contents import names_given
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.values import Names
 from mudline.language.rules import rule
+from mudline.model.scene.context import records_of
 from mudline.model.scene.deck_values import DEFAULT_GRAVITY, number
 
 VES002 = Code("VES002", "vessel-without-rao", Severity.WARNING)

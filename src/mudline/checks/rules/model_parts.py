@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from mudline.checks.context import LintContext, records_of
+from mudline.checks.context import LintContext
 from mudline.language.deck.model import Opaque, raw_lines
 from mudline.language.deck.parameters import folded, name_key
 from mudline.language.diagnostics import Code, Problem, Severity, Where
@@ -21,6 +21,7 @@ from mudline.language.keywords.values import Gift, Names
 from mudline.language.rules import rule
 from mudline.language.syntax.rows import read_number
 from mudline.model.contact.input import LawKind
+from mudline.model.scene.context import records_of
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask, first_of

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.basics.outside import without_text
 from mudline.basics.spelling import Effort, nearest
-from mudline.checks.context import LintContext, records_of
+from mudline.checks.context import LintContext
 from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import Parameters, folded, list_items
 from mudline.language.deck.reading import TextOrigin
@@ -22,6 +22,7 @@ from mudline.language.keywords.values import DataFile, Names, is_unknown, known_
 from mudline.language.rules import rule
 from mudline.language.syntax.edits import TextEdit, with_line_ends
 from mudline.language.syntax.fields import read_line
+from mudline.model.scene.context import records_of
 from mudline.model.scene.data_files import fault_of, has_uneven_times, operators, unequal_frequencies
 from mudline.model.scene.deck_values import file_name, find_file
 from mudline.model.scene.references import THINGS, repeated

@@ -8,11 +8,12 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from mudline.checks.context import LintContext, records_of
+from mudline.checks.context import LintContext
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Code, Problem, Severity, Where
 from mudline.language.keywords.table import Table
 from mudline.language.rules import rule
+from mudline.model.scene.context import records_of
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.laws import DIRECTIONS, typed_blocks
 from mudline.model.scene.sets import ALL
